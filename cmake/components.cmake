@@ -1,0 +1,102 @@
+# What Tyndall uses of other people's work, and the targets that folders may LINK:
+#   embree  tinygltf::tinygltf  OpenEXR::OpenEXR  PNG::PNG  stb::stb  nlohmann_json::nlohmann_json  CLI11::CLI11
+#   TBB::tbb  xsimd  Threads::Threads        and for tests  GTest::gmock  rapidcheck  egl::gles
+#
+# TYNDALL_WITH_<PART> is AUTO (used when found), ON (an error when not found; TYNDALL_REQUIRE_ALL=ON makes every AUTO
+# an ON) or OFF. Whatever links a part that is not there is not built, and the end of configure says so.
+# TYNDALL_HAS_<PART>=0|1 is defined for every source.
+include_guard(GLOBAL)
+
+function(tyndall_component part package what)
+  cmake_parse_arguments(PARSE_ARGV 3 arg "" "" "TARGETS")
+  set(TYNDALL_WITH_${part} AUTO CACHE STRING "${what}: AUTO, ON or OFF")
+  set_property(CACHE TYNDALL_WITH_${part} PROPERTY STRINGS AUTO ON OFF)
+  set(has 1)
+  foreach(target IN LISTS arg_TARGETS)
+    if(NOT TARGET ${target})
+      set(has 0)
+    endif()
+  endforeach()
+  if(NOT TYNDALL_WITH_${part})
+    set(has 0)
+    message(STATUS "${what}: off (TYNDALL_WITH_${part}=OFF)")
+  elseif(NOT has AND TYNDALL_WITH_${part} STREQUAL "AUTO" AND NOT TYNDALL_REQUIRE_ALL)
+    message(WARNING "${what}: off, because ${package} was not found. Debian: scripts/install.sh installs it.")
+  elseif(NOT has)
+    message(FATAL_ERROR "${what}: ${package} was not found. Debian: scripts/install.sh installs it.")
+  endif()
+  if(NOT has)
+    set_property(GLOBAL APPEND PROPERTY TYNDALL_MISSING ${arg_TARGETS})
+  endif()
+  target_compile_definitions(tyndall_flags INTERFACE TYNDALL_HAS_${part}=${has})
+  set(TYNDALL_HAS_${part} ${has} CACHE INTERNAL "")
+endfunction()
+
+# An imported target for a library that has no CMake package, or a misleading one.
+function(tyndall_import target header)
+  cmake_parse_arguments(PARSE_ARGV 2 arg "" "" "LIBRARIES;LINK")
+  string(MAKE_C_IDENTIFIER "TYNDALL_${target}" id)
+  find_path(${id}_INCLUDE ${header})
+  mark_as_advanced(${id}_INCLUDE)
+  if(NOT ${id}_INCLUDE)
+    return()
+  endif()
+  set(files "")
+  foreach(library IN LISTS arg_LIBRARIES)
+    find_library(${id}_${library} ${library})
+    mark_as_advanced(${id}_${library})
+    if(NOT ${id}_${library})
+      return()
+    endif()
+    list(APPEND files "${${id}_${library}}")
+  endforeach()
+  add_library(${target} INTERFACE IMPORTED GLOBAL)
+  set_target_properties(${target} PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${${id}_INCLUDE}")
+  target_link_libraries(${target} INTERFACE ${files} ${arg_LINK})
+endfunction()
+
+set(THREADS_PREFER_PTHREAD_FLAG ON)
+find_package(Threads REQUIRED)
+find_package(embree 3.13 CONFIG QUIET)
+find_package(TBB CONFIG QUIET)
+# Imath's package file remarks at length on a Python part that Debian packages apart.
+set(level "${CMAKE_MESSAGE_LOG_LEVEL}")
+set(CMAKE_MESSAGE_LOG_LEVEL WARNING)
+find_package(OpenEXR CONFIG QUIET)
+set(CMAKE_MESSAGE_LOG_LEVEL "${level}")
+find_package(PNG QUIET)
+find_package(nlohmann_json 3.11 CONFIG QUIET)
+find_package(CLI11 CONFIG QUIET)
+# Debian's xsimd package file asks for -lxtl, a library that does not exist: header path only.
+tyndall_import(xsimd xsimd/xsimd.hpp)
+if(TARGET xsimd)
+  # A law's T(0.1) is a warning when T is Lanes, whose constructor takes a float; and g++ 12 takes the deliberately
+  # undefined operands in its own AVX-512 header for mistakes (GCC bug 105593).
+  target_compile_options(xsimd INTERFACE
+    $<$<CXX_COMPILER_ID:Clang>:-Wno-implicit-float-conversion>
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-float-conversion;-Wno-uninitialized;-Wno-maybe-uninitialized>)
+endif()
+tyndall_import(stb::stb stb/stb_image.h)
+tyndall_import(tinygltf::tinygltf tiny_gltf.h LIBRARIES tinygltf)
+
+tyndall_component(EMBREE libembree-dev "Surfaces (Embree)" TARGETS embree)
+tyndall_component(TBB libtbb-dev "Thread pool (TBB)" TARGETS TBB::tbb)
+tyndall_component(GLTF libtinygltf-dev "glTF scenes (tinygltf)" TARGETS tinygltf::tinygltf)
+tyndall_component(OPENEXR libopenexr-dev "EXR pictures (OpenEXR)" TARGETS OpenEXR::OpenEXR)
+tyndall_component(PNG libpng-dev "PNG pictures (libpng)" TARGETS PNG::PNG)
+tyndall_component(STB libstb-dev "HDR and JPEG pictures (stb)" TARGETS stb::stb)
+tyndall_component(JSON nlohmann-json3-dev "Medium and scene files (nlohmann-json)" TARGETS nlohmann_json::nlohmann_json)
+tyndall_component(CLI11 libcli11-dev "Command line (CLI11)" TARGETS CLI11::CLI11)
+tyndall_component(XSIMD libxsimd-dev "SIMD kernels (xsimd)" TARGETS xsimd)
+
+if(TYNDALL_BUILD_TESTS)
+  find_package(GTest REQUIRED)
+  include(GoogleTest)
+  find_package(rapidcheck CONFIG QUIET)
+  tyndall_import(egl::gles EGL/egl.h LIBRARIES EGL GLESv2)
+  tyndall_component(RAPIDCHECK librapidcheck-dev "Property tests (rapidcheck)" TARGETS rapidcheck)
+  tyndall_component(EGL "libegl-dev libgles-dev" "Tests that execute shaders (EGL, OpenGL ES)" TARGETS egl::gles)
+endif()
+if(TYNDALL_BUILD_BENCH)
+  find_package(benchmark CONFIG REQUIRED)
+endif()

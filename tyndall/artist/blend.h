@@ -1,0 +1,171 @@
+#pragma once
+// Interpolating the dials of two media, as the note blends weather.
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "tyndall/artist/medium_dials.h"
+
+namespace tyndall {
+
+/// Dials, or what keeps the two media from being blended so.
+using Blend = std::variant<MediumDials, Objection>;
+
+namespace blending {
+
+inline Objection unlike(std::string field, std::string found) {
+  return {std::move(field), std::move(found), "two media made alike, or the blend \"mix\", which takes any two"};
+}
+
+/// Two densities in one form: as they are where they agree, else as the extinction that both mean. The note
+/// interpolates optical thickness (extinction), whatever the dial shows.
+inline void align(Density& a, Density& b) {
+  bool equal = alike(a, b);
+  if (equal) {
+    std::vector<double> numbers;
+    for_each_number(a, {}, "", [&](double x, const FieldFacts&, const std::string&) { numbers.push_back(x); });
+    std::size_t i = 0;
+    for_each_number(b, {}, "", [&](double x, const FieldFacts&, const std::string&) { equal &= x == numbers[i++]; });
+  }
+  if (equal) return;
+  a = PlainExtinction{extinction_of(a)};
+  b = PlainExtinction{extinction_of(b)};
+}
+
+/// A veil that is not there is the other one without density.
+inline void align(std::optional<Veil>& a, std::optional<Veil>& b) {
+  if (!a && !b) return;
+  if (!a) a = Veil{PlainExtinction{}, b->albedo};
+  if (!b) b = Veil{PlainExtinction{}, a->albedo};
+  align(a->density, b->density);
+}
+
+inline std::optional<Objection> align(Simple& a, Simple& b) {
+  if (a.hold != b.hold) return unlike("conditions/hold", "visibility held in one medium only");
+  align(a.thickness, b.thickness);
+  align(a.veil, b.veil);
+  return std::nullopt;
+}
+inline std::optional<Objection> align(TwoLobes& a, TwoLobes& b) {
+  align(a.thickness, b.thickness);
+  align(a.veil, b.veil);
+  return std::nullopt;
+}
+
+inline Simple without_density(Simple model) {
+  model.thickness = PlainExtinction{};
+  if (model.veil) model.veil->density = PlainExtinction{};
+  return model;
+}
+inline TwoLobes without_density(TwoLobes model) {
+  model.thickness = PlainExtinction{};
+  if (model.veil) model.veil->density = PlainExtinction{};
+  return model;
+}
+
+inline std::optional<Objection> align(std::optional<Conditions>& a, std::optional<Conditions>& b) {
+  if (!a && !b) return std::nullopt;
+  for (const auto& [from, to] : {std::pair{&a, &b}, std::pair{&b, &a}}) {
+    if (*to) continue;
+    // Held visibility has no setting that means "nothing".
+    if (const auto* simple = std::get_if<Simple>(&**from); simple != nullptr && simple->hold) {
+      return unlike("conditions/hold", "visibility held in one medium only");
+    }
+    *to = std::visit([](const auto& model) -> Conditions { return without_density(model); }, **from);
+  }
+  if (a->index() != b->index()) {
+    const auto name = [](const auto& model) { return std::string(model.name); };
+    return unlike("conditions/model", "the models " + std::visit(name, *a) + " and " + std::visit(name, *b));
+  }
+  auto objection =
+      std::visit([&](auto& model) { return align(model, std::get<std::remove_cvref_t<decltype(model)>>(*b)); }, *a);
+  if (objection) return objection;
+  if (!alike(*a, *b)) return unlike("conditions/profile", "profiles of different laws");
+  return std::nullopt;
+}
+
+/// Air that is not there is the other's with exaggeration 0.
+inline std::optional<Objection> align(std::optional<Background>& a, std::optional<Background>& b) {
+  const auto none = [](const std::optional<Background>& x) { return !x || x->air == Air::none; };
+  if (none(a) && none(b)) {
+    b = a;
+    return std::nullopt;
+  }
+  if (none(a)) a = Background{b->air, 0.0, b->profile};
+  if (none(b)) b = Background{a->air, 0.0, a->profile};
+  if (!alike(*a, *b)) return unlike("background", "backgrounds of different kinds");
+  return std::nullopt;
+}
+
+inline std::optional<Objection> align(StatedSpecies& a, StatedSpecies& b) {
+  const std::string name = '"' + a.name + '"';
+  if (a.density && b.density) {
+    align(*a.density, *b.density);
+    a.albedo = a.albedo.value_or(Spectrum::grey(1.0));
+    b.albedo = b.albedo.value_or(Spectrum::grey(1.0));
+  } else {
+    for (StatedSpecies* s : {&a, &b}) {
+      if (s->density) {
+        const Spectrum extinction = extinction_of(*s->density), albedo = s->albedo.value_or(Spectrum::grey(1.0));
+        s->scattering = extinction * albedo;
+        s->absorption = extinction * (Spectrum::grey(1.0) - albedo);
+        s->density.reset();
+        s->albedo.reset();
+      }
+      s->scattering = s->scattering.value_or(Spectrum{});
+      s->absorption = s->absorption.value_or(Spectrum{});
+    }
+  }
+  if (!alike(a.phase, b.phase)) return unlike("species", "different laws for the species " + name);
+  if (!alike(a.profile, b.profile)) return unlike("species", "different profiles for the species " + name);
+  return std::nullopt;
+}
+
+/// Pairs species by name, in their order where a name is repeated; one without a partner gets an empty one.
+inline std::optional<Objection> align(std::vector<StatedSpecies>& a, std::vector<StatedSpecies>& b) {
+  const auto emptied = [](StatedSpecies s) {
+    if (s.density) s.density = PlainExtinction{};
+    if (s.scattering) s.scattering = Spectrum{};
+    if (s.absorption) s.absorption = Spectrum{};
+    return s;
+  };
+  std::vector<StatedSpecies> left, right;
+  std::vector<bool> taken(b.size(), false);
+  for (const StatedSpecies& s : a) {
+    std::size_t i = 0;
+    while (i < b.size() && (taken[i] || b[i].name != s.name)) ++i;
+    left.push_back(s);
+    right.push_back(i < b.size() ? b[i] : emptied(s));
+    if (i < b.size()) taken[i] = true;
+  }
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    if (taken[i]) continue;
+    left.push_back(emptied(b[i]));
+    right.push_back(b[i]);
+  }
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    if (auto objection = align(left[i], right[i])) return objection;
+  }
+  a = std::move(left);
+  b = std::move(right);
+  return std::nullopt;
+}
+
+}  // namespace blending
+
+/// The medium whose dials stand at t in [0, 1] between those of a and b: w, extinction (thickness and veil), lobes,
+/// albedos, exaggeration, profiles and stated species, each linearly (Hoobler's note: "simply interpolate between the w
+/// and optical thickness settings"). Both must be in the same units. Exactly a at 0 and b at 1. What one medium lacks
+/// counts as being there with no density; objects to different models, laws or profiles.
+inline Blend interpolate(MediumDials a, MediumDials b, double t) {
+  if (t == 0.0) return a;
+  if (t == 1.0) return b;
+  if (auto objection = blending::align(a.background, b.background)) return *objection;
+  if (auto objection = blending::align(a.conditions, b.conditions)) return *objection;
+  if (auto objection = blending::align(a.species, b.species)) return *objection;
+  return MediumDials{between_dials(a.background, b.background, t), between_dials(a.conditions, b.conditions, t),
+                     between_dials(a.species, b.species, t)};
+}
+
+}  // namespace tyndall

@@ -1,0 +1,55 @@
+#pragma once
+// Everything a person states about a medium, and how it becomes the list of species.
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "tyndall/artist/background.h"
+#include "tyndall/artist/dials.h"
+#include "tyndall/artist/simple.h"
+#include "tyndall/artist/two_lobes.h"
+
+namespace tyndall {
+
+/// The closed list of models of weather. A new one is a header and a word here.
+using Conditions = std::variant<Simple, TwoLobes>;
+template <>
+inline constexpr std::string_view choice_key<Conditions> = "model";
+
+struct MediumDials {
+  std::optional<Background> background;
+  std::optional<Conditions> conditions;
+  std::vector<StatedSpecies> species;
+};
+
+/// The medium in SI, or what stands in its way (an Objection's field is a path below the medium). The dials must be in
+/// SI: in_metres() brings them there. Species come in the order air, conditions, stated species; void ones are left
+/// out.
+inline std::variant<Medium, Objection> compile(const MediumDials& dials) {
+  Medium others, medium;
+  if (dials.background) compile(*dials.background, others.species);
+  const std::size_t airs = others.species.size();
+  for (const StatedSpecies& s : dials.species) compile(s, others.species);
+  medium.species.assign(others.species.begin(), others.species.begin() + static_cast<std::ptrdiff_t>(airs));
+  if (dials.conditions) {
+    const Spectrum rest = scattering_at(others, {}) + absorption_at(others, {});
+    auto objection =
+        std::visit([&](const auto& model) { return compile(model, rest, medium.species); }, *dials.conditions);
+    if (objection) {
+      objection->field = "conditions" + (objection->field.empty() ? "" : "/" + objection->field);
+      return *objection;
+    }
+  }
+  medium.species.insert(medium.species.end(), others.species.begin() + static_cast<std::ptrdiff_t>(airs),
+                        others.species.end());
+  for (const Species& s : medium.species) {
+    const double here = factor(s, {});
+    if (!is_finite(s.extinction()) || !is_finite(s.extinction() * here)) {
+      return Objection{"", "a species too dense for double precision", "less of it, or a taller profile"};
+    }
+  }
+  return medium;
+}
+
+}  // namespace tyndall

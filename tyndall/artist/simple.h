@@ -1,0 +1,86 @@
+#pragma once
+// The note's simple approach: one dial w from clear over hazy to murky, a thickness, and a veil.
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "tyndall/artist/veil.h"
+
+namespace tyndall {
+
+/// What is kept while w moves.
+enum class Hold { visibility };
+constexpr std::array<std::string_view, 1> words_of(Hold) { return {"visibility"}; }
+
+/// Mie extinction is k_hazy(w) thickness + k_murky(w) thickness. The k's sum to min(1, 2 w), so that below w = 0.5 the
+/// dial also thins the air, unless visibility is held.
+struct Simple {
+  static constexpr std::string_view name = "simple";
+  static constexpr std::string_view text = "Haze to murk on one dial, with an even veil.";
+  double w = 0.5;
+  Density thickness = PlainExtinction{};
+  Spectrum albedo = Spectrum::grey(1.0);
+  std::optional<Veil> veil;
+  std::optional<Profile> profile;
+  std::optional<Hold> hold;
+  static constexpr auto fields() {
+    return std::tuple{Field{"w", &Simple::w, unit_interval, "1", "0 nothing, 0.5 hazy, 1 murky.", Scaling::none, true},
+                      Field{"thickness", &Simple::thickness, any_number, "",
+                            "Extinction of the haze and murk at full strength.", Scaling::none, true},
+                      Field{"albedo", &Simple::albedo, unit_interval, "1",
+                            "Share of what haze and murk take from a beam that is scattered."},
+                      Field{"veil", &Simple::veil, any_number, "", "The even part, as of dust or smoke."},
+                      Field{"profile", &Simple::profile, any_number, "", "How it varies in space; absent: not at all."},
+                      Field{"hold", &Simple::hold, any_number, "",
+                            "\"visibility\": thickness is that of the finished medium, whatever w."}};
+  }
+};
+
+struct HazyMurky {
+  double hazy, murky;
+};
+/// Hoobler's note: k_hazy = 1 - |1 - 2w|, k_murky = max(0, 2w - 1), w in [0, 1].
+inline HazyMurky simple_strengths(double w) { return {1.0 - std::fabs(1.0 - 2.0 * w), std::fmax(0.0, 2.0 * w - 1.0)}; }
+/// The same divided by their sum min(1, 2w); w = 0 is taken as pure hazy.
+inline HazyMurky simple_shares(double w) { return w <= 0.5 ? HazyMurky{1.0, 0.0} : simple_strengths(w); }
+
+/// The channel in which visibility is stated: green.
+inline constexpr std::size_t visibility_channel = 1;
+
+/// Adds the model's species. `others` is the extinction at the origin [1/m] of all that is in the finished medium
+/// besides this model; it counts only when visibility is held: then thickness is multiplied by the one factor that
+/// gives the finished medium, at the origin and in the green channel, the extinction that `thickness` states. Objects
+/// where the rest alone is thicker than that.
+inline std::optional<Objection> compile(const Simple& simple, const Spectrum& others, std::vector<Species>& out) {
+  Spectrum thickness = extinction_of(simple.thickness);
+  HazyMurky k = simple_strengths(simple.w);
+  if (simple.hold == Hold::visibility) {
+    const std::size_t green = visibility_channel;
+    const double here = simple.profile ? factor(*simple.profile, Vector{}) : 1.0;
+    const double veil = simple.veil ? extinction_of(simple.veil->density)[green] : 0.0;
+    const double stated = thickness[green], rest = others[green] + here * veil;
+    if (!(here > 0.0) || !std::isfinite(here)) {
+      return Objection{"profile", "a profile that leaves nothing at the origin, where visibility is held",
+                       "one that covers the origin, or no \"hold\""};
+    }
+    if (!(stated > 0.0)) return Objection{"thickness", "no visibility to hold", "a thickness above 0 in green"};
+    if (rest > stated) {
+      const double farthest = visibility_of(rest), wanted = visibility_of(stated);
+      return Objection{"thickness",
+                       "a visibility of " + short_number(wanted) +
+                           " m, when background, veil and other species alone leave " + short_number(farthest) + " m",
+                       "a shorter visibility, or less of them"};
+    }
+    thickness *= (stated - rest) / (stated * here);
+    k = simple_shares(simple.w);
+  }
+  add_unless_void(species_of("hazy", k.hazy * thickness, simple.albedo, MieHazy<double>{}, simple.profile), out);
+  add_unless_void(species_of("murky", k.murky * thickness, simple.albedo, MieMurky<double>{}, simple.profile), out);
+  compile(simple.veil, simple.profile, out);
+  return std::nullopt;
+}
+
+}  // namespace tyndall

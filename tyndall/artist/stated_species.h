@@ -1,0 +1,101 @@
+#pragma once
+// A species as a person states it; and the keys by which laws and profiles are told apart where they are stated.
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "tyndall/artist/density.h"
+#include "tyndall/medium/medium.h"
+#include "tyndall/number/described.h"
+
+namespace tyndall {
+
+template <>
+inline constexpr std::string_view choice_key<Law<double>> = "law";
+template <>
+inline constexpr std::string_view choice_key<Profile> = "law";
+
+/// A mixture needs a part that counts.
+inline std::optional<Objection> objection_to(const Mixture<double>& mixture) {
+  double total = 0.0;
+  for (const auto& part : mixture.parts) total += part.weight;
+  if (total > 0.0 && std::isfinite(total)) return std::nullopt;
+  return Objection{"parts", mixture.parts.empty() ? "no parts" : "weights without a positive, finite sum",
+                   "at least one part with a weight above 0"};
+}
+
+/// A box needs an inside.
+inline std::optional<Objection> objection_to(const BoxProfile& box) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(box.min[axis] < box.max[axis])) {
+      return Objection{"max", "a corner that is not above min in every coordinate", "min < max in x, y and z"};
+    }
+  }
+  return std::nullopt;
+}
+
+/// Coefficients as scattering and absorption, or as density (extinction) and albedo: one pair or the other.
+struct StatedSpecies {
+  static constexpr std::string_view text = "One kind of particle.";
+  std::string name;
+  std::optional<Spectrum> scattering, absorption;
+  std::optional<Density> density;
+  std::optional<Spectrum> albedo;
+  Law<double> phase = Isotropic<double>{};
+  std::optional<Profile> profile;
+  static constexpr auto fields() {
+    return std::tuple{
+        Field{"name", &StatedSpecies::name, any_number, "", "What to call it."},
+        Field{"scattering", &StatedSpecies::scattering, not_negative, "1/m", "Scattering coefficient.",
+              Scaling::inverse_length},
+        Field{"absorption", &StatedSpecies::absorption, not_negative, "1/m", "Absorption coefficient.",
+              Scaling::inverse_length},
+        Field{"density", &StatedSpecies::density, any_number, "",
+              "How dense it is, scattering and absorption together."},
+        Field{"albedo", &StatedSpecies::albedo, unit_interval, "1",
+              "Share of the extinction that is scattering; 1 unless stated."},
+        Field{"phase", &StatedSpecies::phase, any_number, "", "Its law of scattering; isotropic unless stated."},
+        Field{"profile", &StatedSpecies::profile, any_number, "", "How it varies in space; absent: not at all."}};
+  }
+};
+
+inline std::optional<Objection> objection_to(const StatedSpecies& s) {
+  const bool coefficients = s.scattering || s.absorption;
+  const std::string possible = "either scattering and absorption, or density and albedo";
+  if (coefficients && s.density) return Objection{"density", "density beside scattering or absorption", possible};
+  if (s.albedo && !s.density) return Objection{"albedo", "albedo without density", possible};
+  if (!coefficients && !s.density) return Objection{"", "a species without coefficients", possible};
+  return std::nullopt;
+}
+
+inline std::vector<Profile> profiles_of(const std::optional<Profile>& profile) {
+  return profile ? std::vector<Profile>{*profile} : std::vector<Profile>{};
+}
+
+/// Adds a species unless it does nothing to light.
+inline void add_unless_void(Species species, std::vector<Species>& out) {
+  if (!is_zero(species.extinction())) out.push_back(std::move(species));
+}
+
+/// A species of this extinction [1/m] and albedo.
+inline Species species_of(std::string name, const Spectrum& extinction, const Spectrum& albedo, Law<double> phase,
+                          const std::optional<Profile>& profile) {
+  return {std::move(name), extinction * albedo, extinction * (Spectrum::grey(1.0) - albedo), std::move(phase),
+          profiles_of(profile)};
+}
+
+inline void compile(const StatedSpecies& s, std::vector<Species>& out) {
+  Species species{s.name, {}, {}, s.phase, profiles_of(s.profile)};
+  if (s.density) {
+    species = species_of(s.name, extinction_of(*s.density), s.albedo.value_or(Spectrum::grey(1.0)), s.phase, s.profile);
+  } else {
+    species.scattering = s.scattering.value_or(Spectrum{});
+    species.absorption = s.absorption.value_or(Spectrum{});
+  }
+  add_unless_void(std::move(species), out);
+}
+
+}  // namespace tyndall

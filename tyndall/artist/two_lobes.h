@@ -1,0 +1,51 @@
+#pragma once
+// The note's three-parameter scattering: two Henyey-Greenstein lobes and what they share.
+#include <optional>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "tyndall/artist/veil.h"
+
+namespace tyndall {
+
+/// Extinction (1 - r) thickness with lobe g1 and r thickness with lobe g2: r weights the second lobe, as in Hoobler's
+/// note (Glassner's r weights the first).
+struct TwoLobes {
+  static constexpr std::string_view name = "two_lobes";
+  static constexpr std::string_view text = "Two lobes of free sharpness, for full control.";
+  double r = 0.5, g1 = 0.0, g2 = 0.0;
+  Density thickness = PlainExtinction{};
+  Spectrum albedo = Spectrum::grey(1.0);
+  std::optional<Veil> veil;
+  std::optional<Profile> profile;
+  static constexpr auto fields() {
+    constexpr Range inside{-1.0, 1.0, true, true};
+    return std::tuple{
+        Field{"r", &TwoLobes::r, unit_interval, "1", "Share of the second lobe.", Scaling::none, true},
+        Field{"g1", &TwoLobes::g1, inside, "1", "Mean cosine of the first lobe; positive scatters forward.",
+              Scaling::none, true},
+        Field{"g2", &TwoLobes::g2, inside, "1", "Mean cosine of the second lobe.", Scaling::none, true},
+        Field{"thickness", &TwoLobes::thickness, any_number, "", "Extinction of both lobes together.", Scaling::none,
+              true},
+        Field{"albedo", &TwoLobes::albedo, unit_interval, "1",
+              "Share of what the lobes take from a beam that is scattered."},
+        Field{"veil", &TwoLobes::veil, any_number, "", "The even part, as of dust or smoke."},
+        Field{"profile", &TwoLobes::profile, any_number, "", "How it varies in space; absent: not at all."}};
+  }
+};
+
+/// Adds the model's species; what else is in the medium does not matter to it.
+inline std::optional<Objection> compile(const TwoLobes& lobes, const Spectrum& /*others*/, std::vector<Species>& out) {
+  const Spectrum thickness = extinction_of(lobes.thickness);
+  add_unless_void(species_of("first lobe", (1.0 - lobes.r) * thickness, lobes.albedo,
+                             HenyeyGreenstein<double>{lobes.g1}, lobes.profile),
+                  out);
+  add_unless_void(
+      species_of("second lobe", lobes.r * thickness, lobes.albedo, HenyeyGreenstein<double>{lobes.g2}, lobes.profile),
+      out);
+  compile(lobes.veil, lobes.profile, out);
+  return std::nullopt;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,27 @@
+#pragma once
+// The veil: the note's isotropic term for dust and smoke. (Real dust scatters forward: mean cosine near 0.7.)
+#include <tuple>
+#include <vector>
+
+#include "tyndall/artist/stated_species.h"
+
+namespace tyndall {
+
+struct Veil {
+  static constexpr std::string_view text = "An even veil that scatters alike in all directions.";
+  Density density = PlainExtinction{};
+  Spectrum albedo = Spectrum::grey(1.0);
+  static constexpr auto fields() {
+    return std::tuple{
+        Field{"density", &Veil::density, any_number, "", "How dense the veil is.", Scaling::none, true},
+        Field{"albedo", &Veil::albedo, unit_interval, "1", "Share of what it takes from a beam that is scattered."}};
+  }
+};
+
+inline void compile(const std::optional<Veil>& veil, const std::optional<Profile>& profile, std::vector<Species>& out) {
+  if (veil) {
+    add_unless_void(species_of("veil", extinction_of(veil->density), veil->albedo, Isotropic<double>{}, profile), out);
+  }
+}
+
+}  // namespace tyndall

@@ -1,0 +1,57 @@
+#include "tyndall/document/binding.h"
+
+namespace tyndall {
+namespace {
+
+std::string described(const Range& range) {
+  const bool low = std::isfinite(range.low), high = std::isfinite(range.high);
+  if (low && high && !range.open_low && !range.open_high) {
+    return " from " + short_number(range.low) + " to " + short_number(range.high);
+  }
+  std::string text;
+  if (low) text += (range.open_low ? " above " : " of at least ") + short_number(range.low);
+  if (low && high) text += " and";
+  if (high) text += (range.open_high ? " below " : " at most ") + short_number(range.high);
+  return text;
+}
+
+}  // namespace
+
+std::string described(const FieldFacts& facts) {
+  const std::string unit = facts.unit.empty() || facts.unit == "1" ? "" : " [" + std::string(facts.unit) + "]";
+  return "a number" + described(facts.range) + unit;
+}
+
+double read_number(const JsonCursor& at, const FieldFacts& facts) {
+  if (!at.value().is_number()) throw at.wrong_type(expected_value<double>(facts));
+  const double x = at.value().get<double>();
+  if (!std::isfinite(x) || !facts.range.contains(x)) throw at.wrong_type(expected_value<double>(facts));
+  return x;
+}
+
+int read_integer(const JsonCursor& at, const FieldFacts& facts) {
+  const double x = read_number(at, facts);
+  if (x != std::trunc(x) || x < std::numeric_limits<int>::min() || x > std::numeric_limits<int>::max()) {
+    throw at.wrong_type("a whole number, " + expected_value<int>(facts));
+  }
+  return static_cast<int>(x);
+}
+
+std::size_t read_word(const JsonCursor& at, const std::vector<std::string_view>& words) {
+  if (!at.value().is_string()) throw at.wrong_type(one_of("", words));
+  const auto& word = at.value().get_ref<const std::string&>();
+  const auto found = std::find(words.begin(), words.end(), word);
+  if (found == words.end()) throw at.wrong_type(one_of(word, words));
+  return static_cast<std::size_t>(found - words.begin());
+}
+
+void check_keys(const JsonCursor& at, const std::vector<std::string_view>& keys) {
+  if (!at.value().is_object()) throw at.wrong_type("an object with " + one_of("", keys));
+  for (const auto& member : at.value().items()) {
+    if (std::find(keys.begin(), keys.end(), member.key()) == keys.end()) {
+      throw at.at(member.key()).fault("the unknown key " + in_quotes(member.key()), one_of(member.key(), keys));
+    }
+  }
+}
+
+}  // namespace tyndall

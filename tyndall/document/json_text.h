@@ -1,0 +1,70 @@
+#pragma once
+// JSON files as text with places: parsed strictly, and able to say on which line a value stands.
+#include <cstddef>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+#include "tyndall/document/fault.h"
+#include "tyndall/number/described.h"
+
+namespace tyndall {
+
+using Json = nlohmann::json;
+
+inline constexpr std::size_t deepest_json = 64;
+inline constexpr std::size_t largest_json = std::size_t{16} << 20;  // bytes
+
+/// A parsed text that remembers where it came from.
+struct JsonText {
+  std::string file;  // its name in messages
+  std::string text;
+  Json root;
+};
+
+/// Parses UTF-8 JSON (RFC 8259) with no duplicate keys, at most deepest_json levels and only numbers that a double can
+/// hold. Throws Fault for anything else. `name` is what messages call the text.
+JsonText parse_json(std::string text, std::string name);
+
+/// Reads and parses a file of at most largest_json bytes; its path is its name. Throws Fault.
+JsonText read_json(const std::filesystem::path& file);
+
+/// One value of a JsonText and the way to it. Refers to the JsonText, which must outlive it.
+class JsonCursor {
+ public:
+  explicit JsonCursor(const JsonText& text) : text_(&text), value_(&text.root) {}
+
+  const Json& value() const { return *value_; }
+  /// RFC 6901, "" for the root.
+  const std::string& pointer() const { return pointer_; }
+  const std::string& file() const { return text_->file; }
+
+  /// A member of an object, an element of a list: it must exist.
+  JsonCursor at(std::string_view key) const;
+  JsonCursor at(std::size_t index) const;
+
+  /// A Fault about this value, with file, line and pointer.
+  Fault fault(std::string found, std::string expected) const;
+  /// The Fault that an objection to this value amounts to. Its field is a path below this value; the place is that of
+  /// the deepest part of the path that is written here.
+  Fault fault_below(const Objection& objection) const;
+  /// A Fault about this value having the wrong type: found is described() of it.
+  Fault wrong_type(std::string expected) const;
+
+ private:
+  JsonCursor(const JsonText* text, const Json* value, std::string pointer)
+      : text_(text), value_(value), pointer_(std::move(pointer)) {}
+
+  const JsonText* text_;
+  const Json* value_;
+  std::string pointer_;
+};
+
+/// A value as a message may name it: "the number 5", "the text \"abc\"", "a list of 2", "an object", "true", "null".
+std::string described(const Json& value);
+
+/// `pointer` extended by a key, escaped as RFC 6901 says.
+std::string joined(const std::string& pointer, std::string_view key);
+
+}  // namespace tyndall

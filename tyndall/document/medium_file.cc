@@ -1,0 +1,55 @@
+#include "tyndall/document/medium_file.h"
+
+#include "tyndall/document/binding.h"
+#include "tyndall/document/text_file.h"
+
+namespace tyndall {
+namespace {
+
+/// What keeps a file's dials from being a medium, with a path below the file.
+std::variant<Medium, Objection> compile_or_object(const MediumFile& file) {
+  MediumFile si = in_metres(file, file.meters_per_unit);
+  if (auto objection = unusable_number(si)) return *objection;
+  return compile(static_cast<const MediumDials&>(si));
+}
+
+}  // namespace
+
+MediumFile medium_file_at(const JsonCursor& at) {
+  MediumFile file;
+  read_value(at, FieldFacts{}, file);
+  const auto compiled = compile_or_object(file);
+  if (const auto* objection = std::get_if<Objection>(&compiled)) throw at.fault_below(*objection);
+  return file;
+}
+
+MediumFile medium_from_json(std::string text, const std::string& name_for_messages) {
+  const JsonText json = parse_json(std::move(text), name_for_messages);
+  return medium_file_at(JsonCursor(json));
+}
+
+MediumFile read_medium_file(const std::filesystem::path& file) {
+  const JsonText json = read_json(file);
+  return medium_file_at(JsonCursor(json));
+}
+
+Medium compile(const MediumFile& file, const std::string& name_for_messages) {
+  auto compiled = compile_or_object(file);
+  if (const auto* objection = std::get_if<Objection>(&compiled)) {
+    throw Fault(place(name_for_messages, 0, objection->field.empty() ? "" : '/' + objection->field), objection->found,
+                objection->expected);
+  }
+  return std::get<Medium>(std::move(compiled));
+}
+
+MediumDials dials_in_metres(const MediumFile& file) { return in_metres(file, file.meters_per_unit); }
+
+std::string medium_to_json(const MediumFile& file) { return pretty(written(file)); }
+
+void write_medium_file(const std::filesystem::path& file, const MediumFile& medium) {
+  const std::string text = medium_to_json(medium);
+  medium_from_json(text, file.string());
+  write_text_file(file, text);
+}
+
+}  // namespace tyndall

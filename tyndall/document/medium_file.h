@@ -1,0 +1,79 @@
+#pragma once
+// Medium files (*.medium.json): read, written, checked, and compiled to species.
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "tyndall/artist/medium_dials.h"
+#include "tyndall/document/json_text.h"
+#include "tyndall/document/writing.h"
+
+namespace tyndall {
+
+enum class MediumFormat { version_1 };
+constexpr std::array<std::string_view, 1> words_of(MediumFormat) { return {"tyndall-medium/1"}; }
+
+/// What the three channels are.
+enum class ColorSpace { linear_srgb };
+constexpr std::array<std::string_view, 1> words_of(ColorSpace) { return {"linear-srgb"}; }
+struct ChannelSpace {
+  ColorSpace space = ColorSpace::linear_srgb;
+  bool operator==(const ChannelSpace&) const = default;
+  static constexpr auto fields() {
+    return std::tuple{Field{"space", &ChannelSpace::space, any_number, "", "The colour space.", Scaling::none, true}};
+  }
+};
+struct ChannelWavelengths {
+  std::array<double, channel_count> wavelengths_nm{680.0, 550.0, 440.0};
+  bool operator==(const ChannelWavelengths&) const = default;
+  static constexpr auto fields() {
+    return std::tuple{Field{"wavelengths_nm", &ChannelWavelengths::wavelengths_nm, positive, "nm",
+                            "The wavelengths that the channels stand for.", Scaling::none, true}};
+  }
+};
+using ChannelTag = std::variant<ChannelSpace, ChannelWavelengths>;
+
+/// What a medium file says, as it says it: lengths and inverse lengths in its own units.
+struct MediumFile : MediumDials {
+  std::optional<std::string> schema;  // for editors; not read
+  MediumFormat format = MediumFormat::version_1;
+  std::string name;
+  double meters_per_unit = 1.0;
+  std::optional<ChannelTag> channels;  // absent: linear sRGB
+  static constexpr auto fields() {
+    return std::tuple{
+        Field{"$schema", &MediumFile::schema, any_number, "", "Where editors find the format's schema."},
+        Field{"format", &MediumFile::format, any_number, "", "The format of this file.", Scaling::none, true},
+        Field{"name", &MediumFile::name, any_number, "", "What to call the medium."},
+        Field{"meters_per_unit", &MediumFile::meters_per_unit, positive, "m",
+              "The file's unit of length: 1 for metres, 0.01 for centimetres."},
+        Field{"channels", &MediumFile::channels, any_number, "", "What the three channels are."},
+        Field{"background", &MediumFile::background, any_number, "", Background::text},
+        Field{"conditions", &MediumFile::conditions, any_number, "", "The weather, by one of the artist models."},
+        Field{"species", &MediumFile::species, any_number, "", "More kinds of particles, stated one by one."}};
+  }
+};
+
+/// The channels' meaning, stated or not.
+inline ChannelTag channels_of(const MediumFile& file) { return file.channels.value_or(ChannelTag{ChannelSpace{}}); }
+
+/// The value at a cursor (a file's root, or an object inside a scene), checked: what it compiles to is sound. Throws
+/// Fault.
+MediumFile medium_file_at(const JsonCursor& at);
+MediumFile medium_from_json(std::string text, const std::string& name_for_messages);
+MediumFile read_medium_file(const std::filesystem::path& file);
+
+/// The medium in SI. Throws Fault {`name_for_messages`, ...} where the dials contradict each other; never for a file as
+/// read.
+Medium compile(const MediumFile& file, const std::string& name_for_messages = "medium");
+
+/// The dials in metres and 1/m.
+MediumDials dials_in_metres(const MediumFile& file);
+
+std::string medium_to_json(const MediumFile& file);
+/// Writes the file whole or not at all. Throws Fault, also where the dials could not be read back.
+void write_medium_file(const std::filesystem::path& file, const MediumFile& medium);
+
+}  // namespace tyndall

@@ -1,0 +1,62 @@
+#include "tyndall/document/writing.h"
+
+namespace tyndall {
+namespace {
+
+constexpr std::size_t line_width = 110;
+
+std::string one_line(const OrderedJson& value) {
+  const auto list = [](const OrderedJson& parts, char open, char close, auto text_of) {
+    std::string text(1, open);
+    for (auto it = parts.begin(); it != parts.end(); ++it) text += (it == parts.begin() ? "" : ", ") + text_of(it);
+    return text + close;
+  };
+  if (value.is_array()) {
+    return list(value, '[', ']', [](const auto& it) { return one_line(*it); });
+  }
+  if (value.is_object() && !value.empty()) {
+    const std::string inner = list(value, '{', '}', [](const auto& it) {
+      return OrderedJson(it.key()).dump(-1, ' ', false, OrderedJson::error_handler_t::replace) + ": " + one_line(*it);
+    });
+    return "{ " + inner.substr(1, inner.size() - 2) + " }";
+  }
+  return value.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+}
+
+void append(const OrderedJson& value, std::size_t indent, std::size_t used, std::string& out) {
+  const std::string line = one_line(value);
+  if (used + line.size() <= line_width || !value.is_structured() || value.empty()) {
+    out += line;
+    return;
+  }
+  const std::string margin(indent + 2, ' ');
+  out += value.is_array() ? '[' : '{';
+  for (auto it = value.begin(); it != value.end(); ++it) {
+    out += (it == value.begin() ? "\n" : ",\n") + margin;
+    std::string key;
+    if (value.is_object()) {
+      key = OrderedJson(it.key()).dump(-1, ' ', false, OrderedJson::error_handler_t::replace) + ": ";
+      out += key;
+    }
+    append(*it, indent + 2, margin.size() + key.size() + 1, out);
+  }
+  out += '\n' + std::string(indent, ' ') + (value.is_array() ? ']' : '}');
+}
+
+}  // namespace
+
+OrderedJson written_number(double x) {
+  if (!std::isfinite(x)) return nullptr;
+  if (x == std::trunc(x) && std::fabs(x) < 1e15 && !(x == 0.0 && std::signbit(x))) {
+    return static_cast<std::int64_t>(x);
+  }
+  return x;
+}
+
+std::string pretty(const OrderedJson& value) {
+  std::string out;
+  append(value, 0, 0, out);
+  return out + '\n';
+}
+
+}  // namespace tyndall

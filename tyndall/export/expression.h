@@ -1,0 +1,47 @@
+#pragma once
+// Expression graphs made ready for printing: equal sub-expressions found equal, trivial arithmetic done.
+#include <map>
+#include <span>
+#include <string>
+#include <tuple>
+#include <unordered_map>
+#include <vector>
+
+#include "tyndall/number/symbol.h"
+
+namespace tyndall {
+
+/// A node of the ready graph. `named` and `fma` do not occur: names sit on the nodes, a * b + c is two nodes.
+struct Expression {
+  Operation operation;
+  double value = 0.0;
+  std::string text;           // of an input
+  std::vector<int> operands;  // indices, all smaller than this node's
+  std::string name;           // as the law's author called it; may be empty
+  bool is_constant() const { return operation == Operation::constant && name.empty(); }
+};
+
+class ExpressionGraph {
+ public:
+  /// The node that stands for a symbol. Structurally equal symbols get one node; of two names for it the first stays.
+  int add(const Symbol& symbol);
+  const Expression& operator[](int i) const { return nodes_[static_cast<std::size_t>(i)]; }
+  int size() const { return static_cast<int>(nodes_.size()); }
+
+ private:
+  using Key = std::tuple<Operation, double, std::string, std::vector<int>>;
+  int simplified(Operation operation, std::vector<int> operands);
+  int interned(Operation operation, std::vector<int> operands, double value = 0.0, const std::string& text = {});
+  int give_name(int node, const std::string& name);
+  bool is(int node, double constant) const;
+
+  std::vector<Expression> nodes_;
+  std::map<Key, int> known_;
+  std::unordered_map<const SymbolNode*, int> seen_;
+  std::vector<Symbol> kept_;  // keeps the nodes of seen_ alive, so that no address is used twice
+};
+
+/// What an operation without operands, states or loops does to constants.
+double evaluate(Operation operation, std::span<const double> operands);
+
+}  // namespace tyndall

@@ -1,0 +1,158 @@
+#pragma once
+// Airlight: what a lamp scatters into a ray. Single scattering in a homogeneous medium, to the last digits.
+#include <algorithm>
+#include <span>
+
+#include "tyndall/color/spectrum.h"
+#include "tyndall/geometry/vector.h"
+#include "tyndall/light/exponential_integral.h"
+#include "tyndall/light/gauss_legendre.h"
+#include "tyndall/phase/lobe_sum.h"
+
+namespace tyndall {
+
+/// Where a lamp stands as seen from a ray: the ray passes it at t = along, at the distance `aside` >= 0 [m]. At t, the
+/// distance to the lamp is r = sqrt((t - along)^2 + aside^2), and light scattered into the ray is deflected by
+/// mu = (along - t) / r.
+struct LampAside {
+  double along = 0.0, aside = 1.0;
+
+  static LampAside of(const Ray& ray, const Vector& lamp) {
+    const Vector offset = lamp - ray.origin;
+    const double along = dot(offset, ray.direction);
+    return {along, length(offset - ray.direction * along)};
+  }
+  double distance_at(double t) const { return std::hypot(t - along, aside); }
+};
+
+/// One lobe of a medium: how much it scatters per channel [1/m], and where to.
+struct ScatteringLobe {
+  Spectrum scattering;
+  Lobe<double> lobe;
+};
+
+/// A lit stretch of a ray in the variable x of t = along + aside sinh x, where v = e^x = (t - along + r) / aside gives
+///   t + r = along + aside v,   dt / r^2 = 2 v dx / (aside (1 + v^2)),   1 + mu = 2 / (1 + v^2) :
+/// every lamp, far or near, looks alike, the nearest singularity being i pi/2 away (algorithms: asinh panels). x is
+/// counted from the stretch's begin, so that short stretches keep their digits.
+struct AirlightStretch {
+  double along = 0.0, aside = 1.0;  // aside raised above 0 where that changes nothing
+  double start = 1.0, span = 0.0;   // v at the begin; length in x
+  double path = 0.0;                // t + r at the begin
+  bool diverges = false;            // the lamp stands on the stretch
+
+  struct Point {
+    double v;
+    Deflection<double> deflection;
+    double weight;  // dt / r^2 per dx [1/m]
+    double extra;   // t + r beyond that of the begin [m]
+  };
+  Point at(double x) const {
+    const double v = start * std::exp(x);
+    const double half_plus = 1.0 / (1.0 + v * v);
+    return {v, Deflection<double>::from_halves(half_plus, v * v * half_plus), 2.0 * v * half_plus / aside,
+            aside * start * std::expm1(x)};
+  }
+  /// Distance along the ray and from the lamp at v.
+  double t_at(double v) const { return along + 0.5 * aside * (v - 1.0 / v); }
+  double distance_at(double v) const { return 0.5 * aside * (v + 1.0 / v); }
+  /// x of a t inside the stretch, 0 at its begin.
+  double x_at(double begin, double t) const {
+    const double d0 = begin - along, d1 = t - along, r0 = std::hypot(d0, aside), r1 = std::hypot(d1, aside);
+    if (!(t > begin)) return 0.0;
+    if (t == infinity) return infinity;
+    if (d1 < 0.0) {  // both before the lamp: 1/v = (along - t + r) / aside adds positive terms
+      return std::log1p((t - begin) * (1.0 - (d0 + d1) / (r0 + r1)) / (r1 - d1));
+    }
+    if (d0 >= 0.0) return std::log1p((t - begin) * (1.0 + (d0 + d1) / (r0 + r1)) / (r0 + d0));
+    return std::asinh(d1 / aside) + std::asinh(-d0 / aside);
+  }
+
+  /// `lit` within t >= 0; its end may be infinite. Light beyond x = 42 past the closest approach, a part in 1e18 of the
+  /// whole, is left out. A lamp exactly on the ray (aside = 0) is at 1e-10 of its distance instead, a relative change
+  /// of 1e-20; inside the stretch there is no such distance, the integral diverges as 1 / aside.
+  static AirlightStretch of(const LampAside& lamp, const Interval& lit) {
+    AirlightStretch s;
+    const double gap = std::max({lit.begin - lamp.along, lamp.along - lit.end, 0.0});
+    s.along = lamp.along;
+    s.aside = std::max(lamp.aside, 1e-10 * gap);
+    if (!(lit.begin < lit.end)) return s;
+    if (!(s.aside > 0.0)) {
+      s.diverges = true;
+      return s;
+    }
+    const double d = lit.begin - lamp.along, r = std::hypot(d, s.aside);
+    s.start = d < 0.0 ? s.aside / (r - d) : (r + d) / s.aside;
+    s.path = lit.begin + r;
+    s.span = std::min(s.x_at(lit.begin, lit.end), 42.0 + std::max(0.0, -std::log(s.start)));
+    return s;
+  }
+};
+
+/// What a ray through a lamp sees: infinite in every channel that scatters.
+inline Spectrum divergent(std::span<const ScatteringLobe> lobes) {
+  Spectrum sum;
+  for (const ScatteringLobe& part : lobes) sum += part.scattering;
+  return map(sum, [](double x) { return x > 0.0 ? infinity : 0.0; });
+}
+
+/// For lamps that shine alike in all directions.
+struct EvenFalloff {
+  double operator()(const Deflection<double>&) const { return 1.0; }
+};
+
+/// The longest panel in x, and the most that e^(-extinction (t + r)) may fall within one, as an exponent: with these
+/// 16 points reach 2e-11 for the lobes of every law (3 and 60: 6e-7).
+inline constexpr double airlight_panel = 2.0, airlight_panel_fall = 15.0;
+/// Panels end where e^(-extinction (t + r)) has fallen this many panel falls below its begin: e^-45.
+inline constexpr int airlight_falls = 3;
+
+/// int over `lit` of sum_i scattering_i p_i(mu) falloff e^(-extinction (t + r)) / r^2 dt per channel: the radiance
+/// [W/(m^2 sr)] that a lamp of 1 W/sr scatters into the ray's origin, t = 0. Gauss-Legendre-16 panels. Any lobe;
+/// falloff(deflection) is the lamp's relative intensity toward the point (the direction from lamp to point follows from
+/// mu), smooth over the stretch. Infinite when the stretch diverges.
+template <class Falloff = EvenFalloff>
+Spectrum airlight_by_panels(std::span<const ScatteringLobe> lobes, const Spectrum& extinction,
+                            const AirlightStretch& stretch, const Falloff& falloff = {}) {
+  const auto integrand = [&](double x) {
+    const AirlightStretch::Point p = stretch.at(x);
+    Spectrum value;
+    for (const ScatteringLobe& part : lobes) {
+      value += part.scattering * std::visit([&](const auto& l) { return l.density(p.deflection); }, part.lobe);
+    }
+    const double weight = p.weight * falloff(p.deflection);
+    double attenuation = 1.0;
+    for (std::size_t c = 0; c < channel_count; ++c) {
+      if (c == 0 || extinction[c] != extinction[c - 1]) attenuation = weight * std::exp(-extinction[c] * p.extra);
+      value[c] *= attenuation;
+    }
+    return value;
+  };
+  // Every channel's falls are panel borders, so that each is resolved where it is bright.
+  std::array<double, airlight_falls * channel_count + 1> borders;
+  std::size_t count = 0;
+  const auto fall = [&](double sigma, int falls) {
+    const double reach = falls * airlight_panel_fall / (sigma * stretch.aside * stretch.start);
+    return std::min(stretch.span, reach < 1e300 ? std::log1p(reach) : stretch.span);
+  };
+  for (std::size_t c = 0; c < channel_count; ++c) {
+    if (c > 0 && extinction[c] == extinction[c - 1]) continue;
+    for (int k = 1; k <= airlight_falls; ++k) borders[count++] = fall(extinction[c], k);
+  }
+  std::sort(borders.begin(), borders.begin() + static_cast<std::ptrdiff_t>(count));
+  Spectrum sum;
+  double begin = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double length = borders[i] - begin;
+    if (!(length > 0.0)) continue;
+    const int panels = static_cast<int>(std::ceil(length / airlight_panel));
+    for (int k = 0; k < panels; ++k) {
+      sum += gauss_legendre_16(begin + length * k / panels, begin + length * (k + 1) / panels, integrand);
+    }
+    begin = borders[i];
+  }
+  for (std::size_t c = 0; c < channel_count; ++c) sum[c] *= std::exp(-extinction[c] * stretch.path);
+  return stretch.diverges ? divergent(lobes) : sum;
+}
+
+}  // namespace tyndall

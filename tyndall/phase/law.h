@@ -1,0 +1,89 @@
+#pragma once
+// The list of laws (phase functions), and what every law offers.
+#include <variant>
+
+#include "tyndall/phase/henyey_greenstein.h"
+#include "tyndall/phase/isotropic.h"
+#include "tyndall/phase/mie_hazy.h"
+#include "tyndall/phase/mie_murky.h"
+#include "tyndall/phase/mixture.h"
+#include "tyndall/phase/rayleigh.h"
+#include "tyndall/phase/sum_inverse.h"
+
+namespace tyndall {
+
+/// The closed list. A new law is a header and a line here; files, command line, dials, shaders and tests follow.
+template <class T>
+using Law = std::variant<Isotropic<T>,         //
+                         Rayleigh<T>,          //
+                         HenyeyGreenstein<T>,  //
+                         MieHazy<T>,           //
+                         MieMurky<T>,          //
+                         Mixture<T>>;
+
+template <class T>
+struct MixturePart {
+  T weight = T(1.0);
+  Law<T> phase;
+  static constexpr auto fields() {
+    return std::tuple{
+        Field{"weight", &MixturePart::weight, not_negative, "1", "Share of this part, relative to the others."},
+        Field{"phase", &MixturePart::phase, any_number, "", "The part's law.", Scaling::none, true}};
+  }
+};
+
+/// The lobes a law stands for.
+template <class T>
+LobeSum<T> lower(const Law<T>& law) {
+  return std::visit([](const auto& l) { return l.lower(); }, law);
+}
+
+template <class T>
+LobeSum<T> Mixture<T>::lower() const {
+  T total(0.0);
+  for (const auto& part : parts) total = total + part.weight;
+  total = named("total", total);
+  LobeSum<T> out;
+  for (const auto& part : parts) {
+    const T share = named("share", part.weight / total);
+    for (const auto& inner : tyndall::lower<T>(part.phase)) out.push_back({share * inner.weight, inner.lobe});
+  }
+  return out;
+}
+
+/// Samples a law exactly and monotonically: the law's own inverse where it has one, else that of its sum of lobes.
+template <class T>
+Deflection<T> sample(const Law<T>& law, const T& xi) {
+  return std::visit(
+      [&](const auto& l) {
+        if constexpr (requires { l.sample(xi); }) {
+          return l.sample(xi);
+        } else {
+          return sample(l.lower(), xi);
+        }
+      },
+      law);
+}
+
+template <class T>
+T density(const Law<T>& law, const Deflection<T>& d) {
+  return density(lower(law), d);
+}
+template <class T>
+T cdf(const Law<T>& law, const Deflection<T>& d) {
+  return cdf(lower(law), d);
+}
+template <class T>
+T survival(const Law<T>& law, const Deflection<T>& d) {
+  return survival(lower(law), d);
+}
+template <class T>
+T moment(const Law<T>& law, int l) {
+  return moment(lower(law), l);
+}
+template <class T>
+T mean_cosine(const Law<T>& law) {
+  return moment(law, 1);
+}
+
+}  // namespace tyndall

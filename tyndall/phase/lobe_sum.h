@@ -1,0 +1,79 @@
+#pragma once
+// What every law lowers to: a short weighted sum of lobes.
+#include <variant>
+#include <vector>
+
+#include "tyndall/phase/henyey_greenstein_lobe.h"
+#include "tyndall/phase/isotropic_lobe.h"
+#include "tyndall/phase/power_lobe.h"
+#include "tyndall/phase/rayleigh_lobe.h"
+
+namespace tyndall {
+
+/// The closed set of lobes. Each offers density [1/sr], cdf (from mu = -1), survival (1 - cdf, without cancellation),
+/// sample (the exact inverse of cdf), moment(l).
+template <class T>
+using Lobe = std::variant<IsotropicLobe<T>, RayleighLobe<T>, HenyeyGreensteinLobe<T>, PowerLobe<T>>;
+
+template <class T>
+struct WeightedLobe {
+  T weight;
+  Lobe<T> lobe;
+};
+
+/// p = sum_i weight_i lobe_i; weights are not negative and sum to 1.
+template <class T>
+using LobeSum = std::vector<WeightedLobe<T>>;
+
+/// The same lobe with its parameters in another number (double -> float, double -> Lanes: lane-uniform).
+template <class U, class T>
+Lobe<U> lobe_as(const Lobe<T>& lobe) {
+  return std::visit([](const auto& l) -> Lobe<U> { return l.template as<U>(); }, lobe);
+}
+
+template <class U, class T>
+LobeSum<U> lobes_as(const LobeSum<T>& lobes) {
+  LobeSum<U> out;
+  for (const auto& part : lobes) out.push_back({U(part.weight), lobe_as<U>(part.lobe)});
+  return out;
+}
+
+/// sum_i weight_i value(lobe_i) for a non-empty sum.
+template <class T, class Value>
+T weighted(const LobeSum<T>& lobes, Value value) {
+  T sum(0.0);
+  bool first = true;
+  for (const auto& part : lobes) {
+    const T term = part.weight * std::visit(value, part.lobe);
+    sum = first ? term : sum + term;
+    first = false;
+  }
+  return sum;
+}
+
+/// Phase function at a deflection [1/sr]; its integral over the sphere is 1.
+template <class T>
+T density(const LobeSum<T>& lobes, const Deflection<T>& d) {
+  return weighted(lobes, [&](const auto& lobe) { return lobe.density(d); });
+}
+/// Probability that mu is at most that of d: 0 at mu = -1, 1 at mu = +1.
+template <class T>
+T cdf(const LobeSum<T>& lobes, const Deflection<T>& d) {
+  return weighted(lobes, [&](const auto& lobe) { return lobe.cdf(d); });
+}
+/// Probability that mu is more than that of d: 1 - cdf, relatively accurate where that is small.
+template <class T>
+T survival(const LobeSum<T>& lobes, const Deflection<T>& d) {
+  return weighted(lobes, [&](const auto& lobe) { return lobe.survival(d); });
+}
+/// chi_l = 2 pi int p P_l dmu; chi_0 = 1, chi_1 is the mean cosine. l >= 0.
+template <class T>
+T moment(const LobeSum<T>& lobes, int l) {
+  return weighted(lobes, [&](const auto& lobe) { return lobe.moment(l); });
+}
+template <class T>
+T mean_cosine(const LobeSum<T>& lobes) {
+  return moment(lobes, 1);
+}
+
+}  // namespace tyndall

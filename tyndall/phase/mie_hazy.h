@@ -1,0 +1,22 @@
+#pragma once
+// Mie-hazy, the note's law for hazy air.
+#include <string_view>
+#include <tuple>
+
+#include "tyndall/phase/half_isotropic.h"
+
+namespace tyndall {
+
+/// p = (1/(4 pi)) (1/2 + 9/2 ((1 + mu)/2)^8): Nishita, Miyawaki and Nakamae 1987, as normalised in Hoobler's note. Mean
+/// cosine 2/5, moments in power_lobe.h; moments beyond l = 8 vanish.
+template <class T>
+struct MieHazy {
+  static constexpr std::string_view name = "mie_hazy";
+  static constexpr std::string_view text = "Light haze: half isotropic, half a broad forward lobe.";
+  static constexpr int exponent = 8;
+  static constexpr auto fields() { return std::tuple<>{}; }
+  LobeSum<T> lower() const { return half_isotropic_lobes<T>(exponent); }
+  Deflection<T> sample(const T& xi) const { return half_isotropic_sample<T>(exponent, xi); }
+};
+
+}  // namespace tyndall

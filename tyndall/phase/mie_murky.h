@@ -1,0 +1,23 @@
+#pragma once
+// Mie-murky, the note's law for murky air.
+#include <string_view>
+#include <tuple>
+
+#include "tyndall/phase/half_isotropic.h"
+
+namespace tyndall {
+
+/// p = (1/(4 pi)) (1/2 + 33/2 ((1 + mu)/2)^32): Hoobler's note after Nishita, Miyawaki and Nakamae 1987. Mean cosine
+/// 8/17. The note prints the exponent 3, with which the integral would be 1/2 + 33/8 = 4.625 (energy from nothing);
+/// only 32 gives (33/2)/33 = 1/2. A test holds both figures.
+template <class T>
+struct MieMurky {
+  static constexpr std::string_view name = "mie_murky";
+  static constexpr std::string_view text = "Dense mist: half isotropic, half a narrow forward lobe.";
+  static constexpr int exponent = 32;
+  static constexpr auto fields() { return std::tuple<>{}; }
+  LobeSum<T> lower() const { return half_isotropic_lobes<T>(exponent); }
+  Deflection<T> sample(const T& xi) const { return half_isotropic_sample<T>(exponent, xi); }
+};
+
+}  // namespace tyndall

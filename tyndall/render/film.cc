@@ -1,0 +1,42 @@
+#include "tyndall/render/film.h"
+
+#include <cmath>
+
+namespace tyndall {
+
+double Film::noise() const {
+  double error = 0.0, signal = 0.0;
+  for (const Pixel& p : pixels_) {
+    const double mean = luminance(mean_beauty(p));
+    signal += mean * mean;
+    const Spectrum v = variance_of_mean(p);
+    const double spread = luminance(map(v, [](double x) { return std::sqrt(x); }));
+    error += spread * spread;
+  }
+  return signal > 0.0 ? std::sqrt(error / signal) : 0.0;
+}
+
+Image Film::develop() const {
+  Image image{width_, height_, {}, {}};
+  const std::size_t beauty = add_layer(image, ""), single = add_layer(image, "single"),
+                    surface = add_layer(image, "surface"), multiple = add_layer(image, "multiple"),
+                    transmittance = add_layer(image, "transmittance"), variance = add_layer(image, "variance"),
+                    depth = add_plane(image, "depth", "Z");
+  for (std::size_t i = 0; i < pixels_.size(); ++i) {
+    const Pixel& p = pixels_[i];
+    const double n = std::max(1u, p.samples);
+    const auto put = [&](std::size_t layer, const Spectrum& x) {
+      for (std::size_t c = 0; c < 3; ++c) image.planes[layer + c].values[i] = static_cast<float>(x[c]);
+    };
+    put(beauty, mean_beauty(p));
+    put(single, p.single / n);
+    put(surface, p.surface / n);
+    put(multiple, p.multiple / n);
+    put(transmittance, p.transmittance / n);
+    put(variance, variance_of_mean(p));
+    image.planes[depth].values[i] = static_cast<float>(p.depth);
+  }
+  return image;
+}
+
+}  // namespace tyndall

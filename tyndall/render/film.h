@@ -1,0 +1,68 @@
+#pragma once
+// Where samples are gathered: per pixel, in double, in the order of their numbers.
+#include <vector>
+
+#include "tyndall/image/image.h"
+#include "tyndall/render/path.h"
+#include "tyndall/render/single.h"
+
+namespace tyndall {
+
+/// Sums over the samples of one pixel.
+struct Pixel {
+  Spectrum surface, single, multiple, beauty_squared, transmittance;
+  double depth = infinity;  // [m], through the pixel's centre
+  std::uint32_t samples = 0;
+};
+
+/// A pixel's mean beauty, and the variance of that mean per channel (unbiased; 0 for fewer than two samples).
+inline Spectrum mean_beauty(const Pixel& p) {
+  return (p.surface + p.single + p.multiple) / static_cast<double>(std::max(1u, p.samples));
+}
+inline Spectrum variance_of_mean(const Pixel& p) {
+  if (p.samples < 2) return {};
+  const double n = p.samples;
+  const Spectrum mean = mean_beauty(p);
+  return map((p.beauty_squared / n - mean * mean) / (n - 1.0), [](double x) { return std::max(0.0, x); });
+}
+
+class Film {
+ public:
+  Film(int width, int height)
+      : width_(width), height_(height), pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
+  int width() const { return width_; }
+  int height() const { return height_; }
+  Pixel& at(int x, int y) {
+    return pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
+  }
+
+  /// Adds the next sample of a pixel.
+  static void add(Pixel& pixel, const PathSample& sample) {
+    const Spectrum beauty = sample.beauty();
+    pixel.surface += sample.surface;
+    pixel.single += sample.single;
+    pixel.multiple += sample.multiple;
+    pixel.beauty_squared += beauty * beauty;
+    pixel.transmittance += sample.transmittance;
+    ++pixel.samples;
+  }
+  /// Sets a pixel to a value that needs no averaging.
+  static void set(Pixel& pixel, const PixelLayers& layers) {
+    pixel = {layers.surface, layers.single, {}, {}, layers.transmittance, layers.depth, 1};
+    pixel.beauty_squared = mean_beauty(pixel) * mean_beauty(pixel);
+  }
+
+  /// Root mean square of the standard error over that of the picture, in luminance: one figure for how noisy it still
+  /// is.
+  double noise() const;
+
+  /// The layers of an image file: beauty, single, surface, multiple, transmittance, depth.Z, variance. Pixels without
+  /// samples are black.
+  Image develop() const;
+
+ private:
+  int width_, height_;
+  std::vector<Pixel> pixels_;
+};
+
+}  // namespace tyndall

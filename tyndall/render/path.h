@@ -1,0 +1,71 @@
+#pragma once
+// The integrator `path`: unbiased light transport of all orders in surfaces and media.
+#include <cstdint>
+#include <memory>
+
+#include "tyndall/medium/lowered_medium.h"
+#include "tyndall/sampling/philox.h"
+#include "tyndall/scene/geometry.h"
+#include "tyndall/scene/scene.h"
+
+namespace tyndall {
+
+/// What `path` prepares once per scene; read only afterwards, by any number of threads.
+class PathContext {
+ public:
+  /// Both must outlive the context. max_depth: most events (collisions and reflections) of a path, 0 for no limit.
+  PathContext(const Scene& scene, const Geometry& geometry, int max_depth = 0);
+  ~PathContext();
+  PathContext(const PathContext&) = delete;
+  PathContext& operator=(const PathContext&) = delete;
+
+  struct Prepared;
+  const Prepared& prepared() const { return *prepared_; }
+
+ private:
+  std::unique_ptr<Prepared> prepared_;
+};
+
+/// One unbiased estimate of the radiance along a ray [W/(m^2 sr)], by what happened to the light.
+struct PathSample {
+  Spectrum surface;   // never scattered by a medium
+  Spectrum single;    // scattered by a medium exactly once, no surface bounce
+  Spectrum multiple;  // the rest
+  Spectrum transmittance;
+  double depth = infinity;  // distance to the surface seen [m]
+
+  Spectrum beauty() const { return surface + single + multiple; }
+};
+
+/// Traces paths; one per thread, for its scratch memory.
+class PathTracer {
+ public:
+  explicit PathTracer(const PathContext& context);
+  ~PathTracer();
+  PathTracer(const PathTracer&) = delete;
+  PathTracer& operator=(const PathTracer&) = delete;
+
+  /// Radiance arriving at ray.origin from ray.direction (a unit vector). The ray ends at `distance` or the first
+  /// surface; with a finite `distance` nothing at or beyond it is added, but what is there still lights the segment.
+  PathSample trace(const Ray& ray, double distance, RandomStream& random);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// A mean over `spp` samples and its standard error; transmittance is exact.
+struct ProbeEstimate {
+  Spectrum radiance, standard_error, transmittance;
+};
+
+/// The radiance of a probe ray (PathTracer::trace), by any number of threads with the same bits.
+ProbeEstimate path_probe(const PathContext& context, const Ray& ray, double distance, std::uint32_t spp,
+                         std::uint64_t seed, int threads = 0);
+
+/// The fluence rate at a point [W/m^2]: radiance from all directions. transmittance is that along +Y. Light of point
+/// and spot lamps that arrives unscattered is added exactly.
+ProbeEstimate path_fluence(const PathContext& context, const Vector& point, std::uint32_t spp, std::uint64_t seed,
+                           int threads = 0);
+
+}  // namespace tyndall

@@ -1,0 +1,46 @@
+#pragma once
+// Which parts of a ray a lamp lights: the shadows of a scene's triangles, exactly.
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "tyndall/scene/scene.h"
+
+namespace tyndall {
+
+/// A ray and a lamp span a plane. Each triangle cuts that plane in a segment, and the segment's shadow on the ray lies
+/// between the projections of its ends: so the edges of all shadows are known to rounding, and none is too narrow to be
+/// found. An index (boxes of boxes) finds the triangles that reach into the part of the plane between lamp and ray.
+/// Read only after construction. Refers to nothing of the scene.
+class ShadowIndex {
+ public:
+  explicit ShadowIndex(const Scene& scene);
+
+  bool empty() const { return triangles_.empty(); }
+
+  /// The parts of `range` that `lamp` lights, in rising order. range.end may be infinite. A lamp within 1e-12 of its
+  /// distance beside the ray has no plane: then the range comes back whole, and the caller asks along the ray.
+  void lit_from(const Vector& lamp, const Ray& ray, const Interval& range, std::vector<Interval>& lit) const;
+
+  /// The same for light from infinitely far away; `toward` is the unit direction to its source.
+  void lit_from_direction(const Vector& toward, const Ray& ray, const Interval& range,
+                          std::vector<Interval>& lit) const;
+
+ private:
+  struct Triangle {
+    std::array<std::array<float, 3>, 3> corner;
+  };
+  struct Node {
+    std::array<float, 3> low, high;
+    std::uint32_t first, count;  // triangles of a leaf; count 0: children are the next node and node `first`
+  };
+  struct View;  // the plane of a query
+  std::uint32_t build(std::uint32_t first, std::uint32_t end);
+  void collect(const View& view, std::vector<Interval>& shadows) const;
+  void lit(const View& view, const Interval& range, std::vector<Interval>& out) const;
+
+  std::vector<Triangle> triangles_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace tyndall
