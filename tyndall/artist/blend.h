@@ -21,14 +21,7 @@ inline Objection unlike(std::string field, std::string found) {
 /// Two densities in one form: as they are where they agree, else as the extinction that both mean. The note
 /// interpolates optical thickness (extinction), whatever the dial shows.
 inline void align(Density& a, Density& b) {
-  bool equal = alike(a, b);
-  if (equal) {
-    std::vector<double> numbers;
-    for_each_number(a, {}, "", [&](double x, const FieldFacts&, const std::string&) { numbers.push_back(x); });
-    std::size_t i = 0;
-    for_each_number(b, {}, "", [&](double x, const FieldFacts&, const std::string&) { equal &= x == numbers[i++]; });
-  }
-  if (equal) return;
+  if (same(a, b)) return;
   a = PlainExtinction{extinction_of(a)};
   b = PlainExtinction{extinction_of(b)};
 }
@@ -42,7 +35,6 @@ inline void align(std::optional<Veil>& a, std::optional<Veil>& b) {
 }
 
 inline std::optional<Objection> align(Simple& a, Simple& b) {
-  if (a.hold != b.hold) return unlike("conditions/hold", "visibility held in one medium only");
   align(a.thickness, b.thickness);
   align(a.veil, b.veil);
   return std::nullopt;
@@ -53,26 +45,48 @@ inline std::optional<Objection> align(TwoLobes& a, TwoLobes& b) {
   return std::nullopt;
 }
 
-inline Simple without_density(Simple model) {
-  model.thickness = PlainExtinction{};
-  if (model.veil) model.veil->density = PlainExtinction{};
-  return model;
+/// Extinction at the origin [1/m] of all that is in a medium besides its conditions.
+inline Spectrum others_of(MediumDials dials) {
+  dials.conditions.reset();
+  const auto compiled = compile(dials);
+  const Medium* medium = std::get_if<Medium>(&compiled);
+  return medium != nullptr ? scattering_at(*medium, {}) + absorption_at(*medium, {}) : Spectrum{};
 }
-inline TwoLobes without_density(TwoLobes model) {
+
+template <class Model>
+Model without_density(Model model) {
   model.thickness = PlainExtinction{};
   if (model.veil) model.veil->density = PlainExtinction{};
   return model;
 }
 
+/// Where one medium holds visibility and the other does not, states the other as holding the visibility that it has. A
+/// medium without conditions holds that of what else is in it.
+inline std::optional<Objection> align_hold(MediumDials& a, MediumDials& b, double meters_per_unit) {
+  const auto simple_of = [](MediumDials& dials) {
+    return dials.conditions ? std::get_if<Simple>(&*dials.conditions) : nullptr;
+  };
+  for (const auto& [from, to] : {std::pair{&a, &b}, std::pair{&b, &a}}) {
+    const Simple* const model = simple_of(*from);
+    if (model == nullptr || !model->hold || (to->conditions && simple_of(*to) == nullptr)) continue;
+    Simple other = to->conditions ? *simple_of(*to) : *model;
+    if (!to->conditions) {
+      // Thin enough to add nothing, with the colour that the thickness has.
+      other.w = 0.0;
+      other.hold.reset();
+      if (other.veil) other.veil->density = PlainExtinction{};
+    }
+    const auto same_held = held(other, others_of(in_metres(*to, meters_per_unit)) * meters_per_unit);
+    if (!same_held) return unlike("conditions/hold", "visibility held in one medium, and nothing to hold in the other");
+    to->conditions = *same_held;
+  }
+  return std::nullopt;
+}
+
 inline std::optional<Objection> align(std::optional<Conditions>& a, std::optional<Conditions>& b) {
   if (!a && !b) return std::nullopt;
   for (const auto& [from, to] : {std::pair{&a, &b}, std::pair{&b, &a}}) {
-    if (*to) continue;
-    // Held visibility has no setting that means "nothing".
-    if (const auto* simple = std::get_if<Simple>(&**from); simple != nullptr && simple->hold) {
-      return unlike("conditions/hold", "visibility held in one medium only");
-    }
-    *to = std::visit([](const auto& model) -> Conditions { return without_density(model); }, **from);
+    if (!*to) *to = std::visit([](const auto& model) -> Conditions { return without_density(model); }, **from);
   }
   if (a->index() != b->index()) {
     const auto name = [](const auto& model) { return std::string(model.name); };
@@ -156,11 +170,13 @@ inline std::optional<Objection> align(std::vector<StatedSpecies>& a, std::vector
 
 /// The medium whose dials stand at t in [0, 1] between those of a and b: w, extinction (thickness and veil), lobes,
 /// albedos, exaggeration, profiles and stated species, each linearly (Hoobler's note: "simply interpolate between the w
-/// and optical thickness settings"). Both must be in the same units. Exactly a at 0 and b at 1. What one medium lacks
-/// counts as being there with no density; objects to different models, laws or profiles.
-inline Blend interpolate(MediumDials a, MediumDials b, double t) {
+/// and optical thickness settings"). Both are in units of `meters_per_unit` metres. Exactly a at 0 and b at 1. What one
+/// medium lacks counts as being there with no density; where one holds visibility, both do. Objects to different
+/// models, laws or profiles.
+inline Blend interpolate(MediumDials a, MediumDials b, double t, double meters_per_unit = 1.0) {
   if (t == 0.0) return a;
   if (t == 1.0) return b;
+  if (auto objection = blending::align_hold(a, b, meters_per_unit)) return *objection;
   if (auto objection = blending::align(a.background, b.background)) return *objection;
   if (auto objection = blending::align(a.conditions, b.conditions)) return *objection;
   if (auto objection = blending::align(a.species, b.species)) return *objection;

@@ -33,6 +33,8 @@ void for_each_number(T& value, const FieldFacts& facts, const std::string& path,
     for_each_field<U>([&](const auto& field) {
       for_each_number(value.*field.member, facts_of(field), path + '/' + std::string(field.name), visit);
     });
+  } else {
+    static_assert(OneOf<U> || std::is_integral_v<U> || std::is_same_v<U, std::string>, "a type without description");
   }
 }
 
@@ -88,6 +90,20 @@ bool alike(const T& a, const T& b) {
   }
 }
 
+/// The numbers of a value, in the order of its fields.
+template <class T>
+std::vector<double> numbers_of(const T& value) {
+  std::vector<double> numbers;
+  for_each_number(value, FieldFacts{}, "",
+                  [&](double x, const FieldFacts&, const std::string&) { numbers.push_back(x); });
+  return numbers;
+}
+/// Whether two values are alike() and their numbers equal.
+template <class T>
+bool same(const T& a, const T& b) {
+  return alike(a, b) && numbers_of(a) == numbers_of(b);
+}
+
 /// a (1 - t) + b t, exact at both ends.
 inline double between(double a, double b, double t) { return t == 1.0 ? b : a + (b - a) * t; }
 inline Spectrum between(const Spectrum& a, const Spectrum& b, double t) {
@@ -99,8 +115,7 @@ inline Spectrum between(const Spectrum& a, const Spectrum& b, double t) {
 /// Every number of two values that are alike() at t between them.
 template <class T>
 T between_dials(T a, const T& b, double t) {
-  std::vector<double> other;
-  for_each_number(b, FieldFacts{}, "", [&](double x, const FieldFacts&, const std::string&) { other.push_back(x); });
+  const std::vector<double> other = numbers_of(b);
   std::size_t i = 0;
   for_each_number(a, FieldFacts{}, "",
                   [&](double& x, const FieldFacts&, const std::string&) { x = between(x, other[i++], t); });

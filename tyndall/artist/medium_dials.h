@@ -21,6 +21,12 @@ struct MediumDials {
   std::optional<Background> background;
   std::optional<Conditions> conditions;
   std::vector<StatedSpecies> species;
+  static constexpr auto fields() {
+    return std::tuple{
+        Field{"background", &MediumDials::background, any_number, "", Background::text},
+        Field{"conditions", &MediumDials::conditions, any_number, "", "The weather, by one of the artist models."},
+        Field{"species", &MediumDials::species, any_number, "", "More kinds of particles, stated one by one."}};
+  }
 };
 
 /// The medium in SI, or what stands in its way (an Objection's field is a path below the medium). The dials must be in

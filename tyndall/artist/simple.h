@@ -67,20 +67,37 @@ inline std::optional<Objection> compile(const Simple& simple, const Spectrum& ot
                        "one that covers the origin, or no \"hold\""};
     }
     if (!(stated > 0.0)) return Objection{"thickness", "no visibility to hold", "a thickness above 0 in green"};
-    if (rest > stated) {
+    // Rounding may leave a rest that should be all of it a little thicker.
+    if (rest > stated * (1.0 + 1e-12)) {
       const double farthest = visibility_of(rest), wanted = visibility_of(stated);
       return Objection{"thickness",
                        "a visibility of " + short_number(wanted) +
                            " m, when background, veil and other species alone leave " + short_number(farthest) + " m",
                        "a shorter visibility, or less of them"};
     }
-    thickness *= (stated - rest) / (stated * here);
+    thickness *= std::fmax(0.0, stated - rest) / (stated * here);
     k = simple_shares(simple.w);
   }
   add_unless_void(species_of("hazy", k.hazy * thickness, simple.albedo, MieHazy<double>{}, simple.profile), out);
   add_unless_void(species_of("murky", k.murky * thickness, simple.albedo, MieMurky<double>{}, simple.profile), out);
   compile(simple.veil, simple.profile, out);
   return std::nullopt;
+}
+
+/// The same medium with visibility held: thickness becomes that of the finished medium. `others` as for compile(). None
+/// where visibility cannot be held: nothing at the origin, or no thickness in green.
+inline std::optional<Simple> held(Simple simple, const Spectrum& others) {
+  if (simple.hold) return simple;
+  const std::size_t green = visibility_channel;
+  const Spectrum thickness = extinction_of(simple.thickness);
+  const double here = simple.profile ? factor(*simple.profile, Vector{}) : 1.0;
+  const double veil = simple.veil ? extinction_of(simple.veil->density)[green] : 0.0;
+  const HazyMurky k = simple_strengths(simple.w);
+  const double whole = others[green] + here * (veil + (k.hazy + k.murky) * thickness[green]);
+  if (!(here > 0.0) || !(thickness[green] > 0.0)) return std::nullopt;
+  simple.thickness = PlainExtinction{thickness * (whole / thickness[green])};
+  simple.hold = Hold::visibility;
+  return simple;
 }
 
 }  // namespace tyndall

@@ -45,12 +45,13 @@ std::size_t read_word(const JsonCursor& at, const std::vector<std::string_view>&
   return static_cast<std::size_t>(found - words.begin());
 }
 
-void check_keys(const JsonCursor& at, const std::vector<std::string_view>& keys) {
+void check_keys(const JsonCursor& at, const std::vector<std::string_view>& keys, std::string_view tag) {
   if (!at.value().is_object()) throw at.wrong_type("an object with " + one_of("", keys));
   for (const auto& member : at.value().items()) {
-    if (std::find(keys.begin(), keys.end(), member.key()) == keys.end()) {
-      throw at.at(member.key()).fault("the unknown key " + in_quotes(member.key()), one_of(member.key(), keys));
-    }
+    if (member.key() == tag || std::find(keys.begin(), keys.end(), member.key()) != keys.end()) continue;
+    const std::string possible =
+        keys.empty() ? "no key besides \"" + std::string(tag) + '"' : one_of(member.key(), keys);
+    throw at.at(member.key()).fault("the unknown key " + in_quotes(member.key()), possible);
   }
 }
 

@@ -32,8 +32,8 @@ double read_number(const JsonCursor& at, const FieldFacts& facts);
 int read_integer(const JsonCursor& at, const FieldFacts& facts);
 /// The index of the text here among words.
 std::size_t read_word(const JsonCursor& at, const std::vector<std::string_view>& words);
-/// A Fault where this is not an object, or has a key that is not among `keys`.
-void check_keys(const JsonCursor& at, const std::vector<std::string_view>& keys);
+/// A Fault where this is not an object, or has a key that is neither among `keys` nor the tag.
+void check_keys(const JsonCursor& at, const std::vector<std::string_view>& keys, std::string_view tag);
 
 /// What a field of type T may hold, for messages.
 template <class T>
@@ -88,9 +88,8 @@ void read_value(const JsonCursor& at, const FieldFacts& facts, T& out);
 template <Described T>
 void read_object(const JsonCursor& at, T& out, std::string_view tag = "") {
   std::vector<std::string_view> keys;
-  if (!tag.empty()) keys.push_back(tag);
   for_each_field<T>([&](const auto& field) { keys.push_back(field.name); });
-  check_keys(at, keys);
+  check_keys(at, keys, tag);
   for_each_field<T>([&](const auto& field) {
     const FieldFacts facts = facts_of(field);
     if (at.value().contains(std::string(field.name))) {

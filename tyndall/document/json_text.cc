@@ -49,8 +49,9 @@ class Builder : public nlohmann::json_sax<Json> {
   }
 
   bool parse_error(std::size_t byte, const std::string&, const nlohmann::detail::exception& error) override {
-    if (error.id == 406) return refuse({"", "a number too large for double precision", "finite numbers", 0, byte});
-    return refuse({"", "text that is not JSON (" + reason(error.what()) + ")", "JSON", 0, byte});
+    if (error.id == 406) return refuse({next(), "a number too large for double precision", "finite numbers", 0, byte});
+    return refuse({levels_.empty() ? "" : pointer(levels_.size() - 1),
+                   "text that is not JSON (" + reason(error.what()) + ")", "JSON", 0, byte});
   }
 
  private:
@@ -64,7 +65,7 @@ class Builder : public nlohmann::json_sax<Json> {
     return false;
   }
 
-  /// Pointer to the value that comes next inside the first `depth` levels plus one.
+  /// Pointer to the open object or list of level `depth`, counted from 0.
   std::string pointer(std::size_t depth) const {
     std::string text;
     for (std::size_t i = 0; i < depth; ++i) {
@@ -74,6 +75,14 @@ class Builder : public nlohmann::json_sax<Json> {
       text = joined(text, level.value->is_array() ? std::to_string(last) : level.key);
     }
     return text;
+  }
+
+  /// Pointer to the value that comes next.
+  std::string next() const {
+    if (levels_.empty()) return "";
+    const Level& level = levels_.back();
+    return joined(pointer(levels_.size() - 1),
+                  level.value->is_array() ? std::to_string(level.value->size()) : level.key);
   }
 
   Json* place(Json value) {

@@ -8,9 +8,10 @@ namespace {
 
 /// What keeps a file's dials from being a medium, with a path below the file.
 std::variant<Medium, Objection> compile_or_object(const MediumFile& file) {
-  MediumFile si = in_metres(file, file.meters_per_unit);
+  if (auto objection = unusable_number(file)) return *objection;
+  const MediumDials si = dials_in_metres(file);
   if (auto objection = unusable_number(si)) return *objection;
-  return compile(static_cast<const MediumDials&>(si));
+  return compile(si);
 }
 
 }  // namespace
@@ -42,7 +43,9 @@ Medium compile(const MediumFile& file, const std::string& name_for_messages) {
   return std::get<Medium>(std::move(compiled));
 }
 
-MediumDials dials_in_metres(const MediumFile& file) { return in_metres(file, file.meters_per_unit); }
+MediumDials dials_in_metres(const MediumFile& file) {
+  return in_metres(static_cast<const MediumDials&>(file), file.meters_per_unit);
+}
 
 std::string medium_to_json(const MediumFile& file) { return pretty(written(file)); }
 

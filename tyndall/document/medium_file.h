@@ -43,16 +43,15 @@ struct MediumFile : MediumDials {
   double meters_per_unit = 1.0;
   std::optional<ChannelTag> channels;  // absent: linear sRGB
   static constexpr auto fields() {
-    return std::tuple{
-        Field{"$schema", &MediumFile::schema, any_number, "", "Where editors find the format's schema."},
-        Field{"format", &MediumFile::format, any_number, "", "The format of this file.", Scaling::none, true},
-        Field{"name", &MediumFile::name, any_number, "", "What to call the medium."},
-        Field{"meters_per_unit", &MediumFile::meters_per_unit, positive, "m",
-              "The file's unit of length: 1 for metres, 0.01 for centimetres."},
-        Field{"channels", &MediumFile::channels, any_number, "", "What the three channels are."},
-        Field{"background", &MediumFile::background, any_number, "", Background::text},
-        Field{"conditions", &MediumFile::conditions, any_number, "", "The weather, by one of the artist models."},
-        Field{"species", &MediumFile::species, any_number, "", "More kinds of particles, stated one by one."}};
+    return std::tuple_cat(
+        std::tuple{
+            Field{"$schema", &MediumFile::schema, any_number, "", "Where editors find the format's schema."},
+            Field{"format", &MediumFile::format, any_number, "", "The format of this file.", Scaling::none, true},
+            Field{"name", &MediumFile::name, any_number, "", "What to call the medium."},
+            Field{"meters_per_unit", &MediumFile::meters_per_unit, positive, "m",
+                  "The file's unit of length: 1 for metres, 0.01 for centimetres."},
+            Field{"channels", &MediumFile::channels, any_number, "", "What the three channels are."}},
+        MediumDials::fields());
   }
 };
 

@@ -1,75 +1,22 @@
 #include "tyndall/export/expression.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
+#include <cstdlib>
+
+#include "tyndall/number/symbol_value.h"
 
 namespace tyndall {
-
-double evaluate(Operation operation, std::span<const double> x) {
-  switch (operation) {
-    case Operation::named:
-      return x[0];
-    case Operation::negate:
-      return -x[0];
-    case Operation::sqrt:
-      return std::sqrt(x[0]);
-    case Operation::cbrt:
-      return std::cbrt(x[0]);
-    case Operation::exp:
-      return std::exp(x[0]);
-    case Operation::expm1:
-      return std::expm1(x[0]);
-    case Operation::log:
-      return std::log(x[0]);
-    case Operation::sin:
-      return std::sin(x[0]);
-    case Operation::cos:
-      return std::cos(x[0]);
-    case Operation::sinh:
-      return std::sinh(x[0]);
-    case Operation::asinh:
-      return std::asinh(x[0]);
-    case Operation::abs:
-      return std::fabs(x[0]);
-    case Operation::add:
-      return x[0] + x[1];
-    case Operation::subtract:
-      return x[0] - x[1];
-    case Operation::multiply:
-      return x[0] * x[1];
-    case Operation::divide:
-      return x[0] / x[1];
-    case Operation::min:
-      return std::min(x[0], x[1]);
-    case Operation::max:
-      return std::max(x[0], x[1]);
-    case Operation::less:
-      return x[0] < x[1];
-    case Operation::greater:
-      return x[0] > x[1];
-    case Operation::less_equal:
-      return x[0] <= x[1];
-    case Operation::greater_equal:
-      return x[0] >= x[1];
-    case Operation::select:
-      return x[0] != 0.0 ? x[1] : x[2];
-    case Operation::fma:
-      return std::fma(x[0], x[1], x[2]);
-    case Operation::constant:
-    case Operation::input:
-    case Operation::state:
-    case Operation::loop:
-    case Operation::result:
-      break;
-  }
-  assert(false);
-  return std::nan("");
-}
 
 bool ExpressionGraph::is(int node, double constant) const {
   const Expression& e = (*this)[node];
   return e.is_constant() && e.value == constant;
+}
+
+bool ExpressionGraph::is_power_of_two(int node) const {
+  const Expression& e = (*this)[node];
+  int exponent = 0;
+  return e.is_constant() && std::frexp(e.value, &exponent) == 0.5 && std::abs(exponent) < 8;
 }
 
 int ExpressionGraph::interned(Operation operation, std::vector<int> operands, double value, const std::string& text) {
@@ -119,9 +66,18 @@ int ExpressionGraph::simplified(Operation operation, std::vector<int> x) {
     case Operation::multiply:
       if (is(x[0], 1.0)) return x[1];
       if (is(x[1], 1.0)) return x[0];
+      if (is(x[0], 0.0)) return x[0];
+      if (is(x[1], 0.0)) return x[1];
+      if (negated(x[0]) && negated(x[1]))
+        return simplified(Operation::multiply, {(*this)[x[0]].operands[0], (*this)[x[1]].operands[0]});
+      // 0.5 (2 x) is x to the last bit.
+      if (const Expression& inner = (*this)[x[1]]; is_power_of_two(x[0]) && inner.operation == Operation::multiply &&
+                                                   is(inner.operands[0], 1.0 / (*this)[x[0]].value))
+        return inner.operands[1];
       break;
     case Operation::divide:
       if (is(x[1], 1.0)) return x[0];
+      if (is(x[0], 0.0)) return x[0];
       break;
     case Operation::select:
       if (x[1] == x[2]) return x[1];

@@ -1,7 +1,6 @@
 #pragma once
 // Expression graphs made ready for printing: equal sub-expressions found equal, trivial arithmetic done.
 #include <map>
-#include <span>
 #include <string>
 #include <tuple>
 #include <unordered_map>
@@ -15,7 +14,7 @@ namespace tyndall {
 struct Expression {
   Operation operation;
   double value = 0.0;
-  std::string text;           // of an input
+  std::string text;           // an input's name
   std::vector<int> operands;  // indices, all smaller than this node's
   std::string name;           // as the law's author called it; may be empty
   bool is_constant() const { return operation == Operation::constant && name.empty(); }
@@ -34,14 +33,12 @@ class ExpressionGraph {
   int interned(Operation operation, std::vector<int> operands, double value = 0.0, const std::string& text = {});
   int give_name(int node, const std::string& name);
   bool is(int node, double constant) const;
+  bool is_power_of_two(int node) const;  // a positive one of moderate size
 
   std::vector<Expression> nodes_;
   std::map<Key, int> known_;
   std::unordered_map<const SymbolNode*, int> seen_;
   std::vector<Symbol> kept_;  // keeps the nodes of seen_ alive, so that no address is used twice
 };
-
-/// What an operation without operands, states or loops does to constants.
-double evaluate(Operation operation, std::span<const double> operands);
 
 }  // namespace tyndall

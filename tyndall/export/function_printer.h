@@ -1,17 +1,18 @@
 #pragma once
-// The printer behind function_text.h: decides what becomes a local, what it is called, and where it stands.
-#include <optional>
+// The printer behind function_text.h: what a local is called, and where it stands.
+#include <map>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tyndall/export/expression.h"
 #include "tyndall/export/function_text.h"
+#include "tyndall/export/locals_plan.h"
 
 namespace tyndall {
 
-/// Prints one function. A node becomes a local variable when the law's author named it, when it is used more than
-/// once, when it does not change inside a loop, or when a line would become too long; all else is written in place.
+/// Prints one function.
 class FunctionPrinter {
  public:
   FunctionPrinter(const Dialect& dialect, const FunctionText& function);
@@ -20,22 +21,10 @@ class FunctionPrinter {
  private:
   struct Piece {
     std::string text;
-    int strength;  // of its weakest operator, see function_printer.cc
-  };
-  struct Plan {
-    int uses = 0;            // places where its text would stand
-    bool local = false;      // stands in a local variable
-    int length = 0;          // characters, about, where it is written in place
-    std::set<int> loops;     // whose state variables it depends on
-    std::string identifier;  // once it has been written
+    int strength;  // of its weakest operator
   };
 
-  void find_loops();
-  void choose_locals();
-  void bound_line_lengths();
-  bool is_atom(int node) const;
-  bool is_mask(int node) const;
-  bool is_trivial(int node) const;
+  std::string header(std::string_view type) const;
   int base_of_power(int node, int& exponent) const;
   std::string hint(int node) const;
   std::string new_identifier(const std::string& wish);
@@ -44,7 +33,7 @@ class FunctionPrinter {
   void write_locals_for(int node);
   void write_local(int node);
   void write_loop(int node);
-  void lift_out_of(int loop, int node, std::set<int>& visited);
+  void lift_to_here(int node, std::set<int>& visited);
   bool mentions(int node, const std::set<int>& variables) const;
   Piece piece(int node) const;
   std::string operand(int node, int least_strength) const;
@@ -54,8 +43,11 @@ class FunctionPrinter {
   const FunctionText& function_;
   ExpressionGraph graph_;
   std::vector<int> outputs_;
-  std::vector<Plan> plans_;
-  std::set<std::string> taken_;
+  LocalsPlan plan_;
+  std::vector<std::string> identifiers_;   // of nodes that have been written
+  std::map<int, std::string> kept_names_;  // identifiers promised to nodes
+  std::set<std::string> taken_;            // identifiers
+  std::set<int> open_loops_;
   std::string lines_;
   int indent_ = 1;
 };

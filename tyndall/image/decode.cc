@@ -10,7 +10,8 @@
 #define STB_IMAGE_STATIC
 #define STBI_ONLY_PNG
 #define STBI_ONLY_JPEG
-#define STBI_ONLY_HDR
+#define STBI_NO_HDR
+#define STBI_NO_LINEAR
 #define STBI_NO_STDIO
 #define STBI_MAX_DIMENSIONS 16384
 #pragma GCC diagnostic push
@@ -26,42 +27,26 @@ namespace {
 
 const std::string wanted = "at most 16384 pixels a side and 134 million in all";
 
-template <class T>
-Decoded<T> decode(const std::string& where, const std::string& kind, std::span<const std::uint8_t> bytes,
-                  T* (*load)(const stbi_uc*, int, int*, int*, int*, int)) {
+}  // namespace
+
+Decoded<std::uint8_t> decode_picture(const std::string& where, std::span<const std::uint8_t> bytes) {
   if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
     throw Fault{where, "a picture file of more than 2 GB", "a smaller one"};
   }
   const int size = static_cast<int>(bytes.size());
   int width = 0, height = 0, channels = 0;
   if (stbi_info_from_memory(bytes.data(), size, &width, &height, &channels) == 0) {
-    throw Fault{where, "not a " + kind + " picture, or a damaged one", kind + ", " + wanted};
+    throw Fault{where, "not a PNG or JPEG picture, or a damaged one", "a PNG or JPEG picture, " + wanted};
   }
   if (width < 1 || height < 1 || width > longest_side || height > longest_side ||
       std::int64_t{width} * height > most_pixels) {
     throw Fault{where, "a picture of " + std::to_string(width) + " x " + std::to_string(height) + " pixels", wanted};
   }
-  const std::unique_ptr<T, void (*)(void*)> pixels(load(bytes.data(), size, &width, &height, &channels, 3),
-                                                   stbi_image_free);
-  if (!pixels) throw Fault{where, "a " + kind + " picture that is damaged or cut short", "a whole one"};
+  const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
+      stbi_load_from_memory(bytes.data(), size, &width, &height, &channels, 3), stbi_image_free);
+  if (!pixels) throw Fault{where, "a PNG or JPEG picture that is damaged or cut short", "a whole one"};
   const std::size_t count = 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  return {width, height, std::vector<T>(pixels.get(), pixels.get() + count)};
-}
-
-}  // namespace
-
-Decoded<std::uint8_t> decode_picture(const std::string& where, std::span<const std::uint8_t> bytes) {
-  if (stbi_is_hdr_from_memory(bytes.data(), static_cast<int>(std::min<std::size_t>(bytes.size(), 64))) != 0) {
-    throw Fault{where, "a Radiance picture", "a PNG or JPEG picture"};
-  }
-  return decode<std::uint8_t>(where, "PNG or JPEG", bytes, stbi_load_from_memory);
-}
-
-Decoded<float> decode_radiance(const std::string& where, std::span<const std::uint8_t> bytes) {
-  if (stbi_is_hdr_from_memory(bytes.data(), static_cast<int>(std::min<std::size_t>(bytes.size(), 64))) == 0) {
-    throw Fault{where, "not a Radiance picture", "a .hdr picture (RGBE)"};
-  }
-  return decode<float>(where, "Radiance", bytes, stbi_loadf_from_memory);
+  return {width, height, std::vector<std::uint8_t>(pixels.get(), pixels.get() + count)};
 }
 
 }  // namespace tyndall

@@ -22,7 +22,4 @@ struct Decoded {
 /// before pixels are allocated. Throws Fault {where, ..}.
 Decoded<std::uint8_t> decode_picture(const std::string& where, std::span<const std::uint8_t> bytes);
 
-/// A Radiance picture (.hdr, RGBE) as linear floats, as stored: its EXPOSURE line is not applied. Throws Fault.
-Decoded<float> decode_radiance(const std::string& where, std::span<const std::uint8_t> bytes);
-
 }  // namespace tyndall

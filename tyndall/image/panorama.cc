@@ -5,8 +5,8 @@
 #include <string_view>
 
 #include "tyndall/document/fault.h"
-#include "tyndall/image/decode.h"
 #include "tyndall/image/exr.h"
+#include "tyndall/image/radiance_picture.h"
 #include "tyndall/image/rehearsal.h"
 #include "tyndall/image/whole_file.h"
 

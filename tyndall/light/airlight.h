@@ -48,10 +48,11 @@ struct AirlightStretch {
     double extra;   // t + r beyond that of the begin [m]
   };
   Point at(double x) const {
-    const double v = start * std::exp(x);
-    const double half_plus = 1.0 / (1.0 + v * v);
-    return {v, Deflection<double>::from_halves(half_plus, v * v * half_plus), 2.0 * v * half_plus / aside,
-            aside * start * std::expm1(x)};
+    const double v = x < 600.0 ? start * std::exp(x) : std::exp(x + std::log(start));
+    // By the smaller of v and 1/v, so that neither square overflows.
+    const double w = v < 1.0 ? v : 1.0 / v, one = 1.0 / (1.0 + w * w), rest = w * w * one;
+    return {v, Deflection<double>::from_halves(v < 1.0 ? one : rest, v < 1.0 ? rest : one), 2.0 * w * one / aside,
+            x < 1.0 ? aside * start * std::expm1(x) : aside * (v - start)};
   }
   /// Distance along the ray and from the lamp at v.
   double t_at(double v) const { return along + 0.5 * aside * (v - 1.0 / v); }

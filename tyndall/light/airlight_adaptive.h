@@ -11,7 +11,8 @@ namespace tyndall {
 /// int f over [breaks.front(), breaks.back()], f(x) -> Spectrum >= 0, smooth between neighbouring breaks (rising).
 /// Panels no longer than `longest`, each compared with its two halves and halved again until they agree to `tolerance`
 /// of the whole, per channel; a channel below 1e-6 of the brightest counts as that much. Kinks and roots at unmarked
-/// places only cost time. At most `budget` panels are halved: the integral then stays as good as it is.
+/// places only cost time. At most `budget` panels are halved: the integral then stays as good as it is. From a
+/// tolerance of 1e-3 on the panels are taken as they come, a third of the work.
 template <class F>
 Spectrum integrate_adaptively(std::span<const double> breaks, double longest, double tolerance, const F& f,
                               int budget = 20000) {
@@ -33,6 +34,7 @@ Spectrum integrate_adaptively(std::span<const double> breaks, double longest, do
       whole += open.back().value;
     }
   }
+  if (tolerance >= 1e-3) return whole;
   Spectrum sum;
   while (!open.empty()) {
     const Panel p = open.back();

@@ -91,7 +91,7 @@ inline Bounded airlight_of(const Lobe<double>& lobe, std::span<const Bounded> mo
 
 /// As airlight_by_panels with even falloff, in closed form:
 ///   radiance = (2 / aside) e^(-extinction (t0 + r0)) sum_i scattering_i int p_i e^(-u (v - v0)) / (1 + v^2) dv.
-/// None where some lobe has no closed form, its power is beyond 64, or fewer than `digits` decimal digits are left.
+/// None where some lobe has no closed form, its power is beyond 64, or more than `relative_error` cannot be excluded.
 inline std::optional<Spectrum> airlight_in_closed_form(std::span<const ScatteringLobe> lobes,
                                                        const Spectrum& extinction, const AirlightStretch& stretch,
                                                        double relative_error = 1e-11) {
@@ -113,7 +113,7 @@ inline std::optional<Spectrum> airlight_in_closed_form(std::span<const Scatterin
     if (c == 0 || extinction[c] != extinction[c - 1]) airlight_moments(extinction[c] * stretch.aside, v0, v1, moments);
     Bounded sum;
     for (const ScatteringLobe& part : lobes) sum = sum + part.scattering[c] * airlight_of(part.lobe, moments);
-    if (!(sum.error <= relative_error * sum.value) && sum.error > 0.0) return std::nullopt;
+    if (!(sum.error <= relative_error * sum.value && std::isfinite(sum.value))) return std::nullopt;
     radiance[c] = 2.0 / stretch.aside * std::exp(-extinction[c] * stretch.path) * sum.value;
   }
   return radiance;

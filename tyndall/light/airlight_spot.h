@@ -26,40 +26,29 @@ struct LampView {
 };
 
 /// The t at which the ray is inside the cone of half angle `half_angle` (degrees, 0 to 90) around `axis` (unit) with
-/// its apex at the lamp: one stretch at most, since a cone is convex. Empty is begin >= end. Counted from the closest
-/// approach and by sines across the axis, so that far, narrow cones keep their digits.
+/// its apex at the lamp: one stretch at most, since a cone is convex; it may reach to -+infinity. Empty is begin >=
+/// end. The plane of ray and lamp goes through the apex and so cuts the cone in two straight edges: no quadratic to
+/// solve, and far, narrow cones keep their digits.
 inline Interval cone_stretch(const LampView& lamp, const Vector& axis, double half_angle) {
-  // With s = t - along, q = s D - h N from the apex: c^2 |q x axis|^2 <= s^2 (q . axis)^2 and q . axis >= 0.
-  const double degree = std::numbers::pi / 180.0, h = lamp.place.aside;
-  const double ad = dot(axis, lamp.direction), an = dot(axis, lamp.normal);
-  const double cosine = half_angle < 90.0 ? std::cos(half_angle * degree) : 0.0;
-  const double sine = half_angle < 90.0 ? std::sin(half_angle * degree) : 1.0;
+  const double angle = half_angle * std::numbers::pi / 180.0;
+  const double cosine = half_angle < 90.0 ? std::cos(angle) : 0.0, sine = half_angle < 90.0 ? std::sin(angle) : 1.0;
+  const double across = dot(axis, cross(lamp.direction, lamp.normal));
   const Interval nothing{0.0, 0.0};
-  const auto shifted = [&](double begin, double end) {
-    return Interval{lamp.place.along + begin, lamp.place.along + end};
-  };
-  if (half_angle >= 90.0) {  // a half space: s ad >= h an
-    if (ad == 0.0) return h * an <= 0.0 ? Interval{-infinity, infinity} : nothing;
-    const double s = h * an / ad;
-    return ad > 0.0 ? shifted(s, infinity) : shifted(-infinity, s);
+  if (std::fabs(across) > sine) return nothing;  // the plane passes beside the cone
+  // The axis in the plane, forward along the ray and down to it, turned by the sector's half angle either way: its
+  // tangent is root / cosine.
+  const double root = std::sqrt((sine - across) * (sine + across));
+  const double forward = dot(axis, lamp.direction), down = -dot(axis, lamp.normal);
+  const double upper_forward = forward * cosine + down * root, upper_down = down * cosine - forward * root;
+  const double lower_forward = forward * cosine - down * root, lower_down = down * cosine + forward * root;
+  const double h = lamp.place.aside, a = lamp.place.along;
+  if (lower_down > 0.0 && upper_down > 0.0) {
+    return {a + h * (lower_forward / lower_down), a + h * (upper_forward / upper_down)};
   }
-  const Vector u = cross(lamp.direction, axis), w = cross(lamp.normal, axis);
-  const double c2 = cosine * cosine, s2 = sine * sine;
-  const double a = c2 * dot(u, u) - s2 * ad * ad;
-  const double b = -h * (c2 * dot(u, w) - s2 * ad * an);
-  const double c = h * h * (c2 * dot(w, w) - s2 * an * an);
-  // In a plane, a s^2 + 2 b s + c has the discriminant -h^2 cos^2 (cos^2 - (distance of the axis from that plane)...),
-  // formed from the products it is a difference; its root only matters where it is not small.
-  const double discriminant = b * b - a * c;
-  if (a == 0.0 && b == 0.0) return nothing;  // along the surface of the cone
-  if (!(discriminant >= 0.0)) return nothing;
-  const double q = -(b + std::copysign(std::sqrt(discriminant), b));
-  double s0 = q / a, s1 = q != 0.0 ? c / q : 0.0;
-  if (s0 > s1) std::swap(s0, s1);
-  if (a < 0.0) return ad > 0.0 ? shifted(s1, infinity) : shifted(-infinity, s0);
-  // Between the crossings, both on the nappe that the stretch's middle tells.
-  const double middle = std::isinf(s1) ? s0 + h + 1.0 : std::isinf(s0) ? s1 - h - 1.0 : 0.5 * (s0 + s1);
-  return middle * ad - h * an >= 0.0 ? shifted(s0, s1) : nothing;
+  if (lower_down > 0.0) return {a + h * (lower_forward / lower_down), infinity};
+  if (upper_down > 0.0) return {-infinity, a + h * (upper_forward / upper_down)};
+  const bool half_space = lower_down == 0.0 && upper_down == 0.0 && down > 0.0;
+  return half_space ? Interval{-infinity, infinity} : nothing;
 }
 
 /// A spot's falloff along a ray, as a function of the deflection (see AirlightStretch).

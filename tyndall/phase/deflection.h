@@ -15,8 +15,8 @@ struct Deflection {
   static Deflection from_mu(const T& mu) { return {mu, T(1.0) - mu, T(1.0) + mu}; }
   /// From 1 - mu and 1 + mu, each relatively accurate; they should sum to 2.
   static Deflection from_ends(const T& one_minus, const T& one_plus) {
-    return {named("mu", select(one_minus < one_plus, T(1.0) - one_minus, one_plus - T(1.0))),
-            named("one_minus", one_minus), named("one_plus", one_plus)};
+    return {select(one_minus < one_plus, T(1.0) - one_minus, one_plus - T(1.0)), named("one_minus", one_minus),
+            named("one_plus", one_plus)};
   }
   /// From u = (1 + mu) / 2 and v = 1 - u, each in [0, 1] and relatively accurate.
   static Deflection from_halves(const T& u, const T& v) { return from_ends(T(2.0) * v, T(2.0) * u); }

@@ -24,9 +24,10 @@ Deflection<T> half_isotropic_sample(int n, const T& xi) {
     const T value = named("excess", fma(below * u, u, u) - target);
     const T slope = named("slope", fma(T(n + 1.0) * below, u, T(1.0)));
     const T curve = named("curve", T(n * (n + 1.0)) * below);
-    return {max(T(0.0), u - T(2.0) * value * slope / (T(2.0) * slope * slope - value * curve))};
+    const T step = named("halley", T(2.0) * value * slope / (T(2.0) * slope * slope - value * curve));
+    return {max(T(0.0), u - step)};
   };
-  const T u = min(T(1.0), iterate(is_double<T> ? 6 : 4, std::array<T, 1>{start}, halley)[0]);
+  const T u = named("root", min(T(1.0), iterate(is_double<T> ? 6 : 4, std::array<T, 1>{start}, halley)[0]));
   const T v = named("v", T(1.0) - u);
   const T above = named("above", one_minus_power(u, v, n + 1));
   const T slope = named("slope", fma(T(n + 1.0), integer_power(u, n), T(1.0)));

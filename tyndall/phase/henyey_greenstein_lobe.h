@@ -19,18 +19,19 @@ struct HenyeyGreensteinLobe {
 
   T density(const Deflection<T>& d) const {
     const T r2 = distance_squared(d);
-    return complement * (T(1.0) + abs(g)) * inverse_four_pi<T>() / (r2 * sqrt(r2));
+    const T numerator = named("numerator", complement * (T(1.0) + abs(g)) * inverse_four_pi<T>());
+    return numerator / (r2 * sqrt(r2));
   }
 
   /// F = (1 - g)(1 + mu) / (r (1 + g + r)), r^2 = 1 + g^2 - 2 g mu: the textbook difference of reciprocals divides by
   /// g.
   T cdf(const Deflection<T>& d) const {
-    const T r = named("distance", sqrt(distance_squared(d)));
+    const T r = named("r", sqrt(distance_squared(d)));
     return one_minus_g() * d.one_plus / (r * (one_plus_g() + r));
   }
   /// 1 - F = (1 + g)(1 - mu) / (r (1 - g + r)): the mirror image.
   T survival(const Deflection<T>& d) const {
-    const T r = named("distance", sqrt(distance_squared(d)));
+    const T r = named("r", sqrt(distance_squared(d)));
     return one_plus_g() * d.one_minus / (r * (one_minus_g() + r));
   }
 
@@ -40,7 +41,7 @@ struct HenyeyGreensteinLobe {
   Deflection<T> sample(const T& xi) const {
     const T y = T(1.0) - xi;
     const T minus = one_minus_g(), plus = one_plus_g(), a = abs(g);
-    const T inverse = named("inverse", T(1.0) / fma(minus, y, plus * xi));
+    const T inverse = named("factor", T(1.0) / fma(minus, y, plus * xi));
     const T toward_back = named("backward", minus * inverse), toward_front = named("forward", plus * inverse);
     const T inner_minus = named("inner_minus", select(g < T(0.0), fma(a, y, complement), fma(a, xi, T(1.0))));
     const T inner_plus = named("inner_plus", select(g < T(0.0), fma(a, y, T(1.0)), fma(a, xi, complement)));
@@ -60,8 +61,8 @@ struct HenyeyGreensteinLobe {
   T one_plus_g() const { return named("one_plus_g", select(g < T(0.0), complement, T(1.0) + abs(g))); }
   /// 1 + g^2 - 2 g mu as (1 - |g|)^2 + 2 |g| (1 -+ mu): a sum of two positive terms.
   T distance_squared(const Deflection<T>& d) const {
-    return named("distance_squared",
-                 fma(T(2.0) * abs(g), select(g < T(0.0), d.one_plus, d.one_minus), complement * complement));
+    const T from_peak = named("from_peak", select(g < T(0.0), d.one_plus, d.one_minus));
+    return named("distance_squared", fma(T(2.0) * abs(g), from_peak, complement * complement));
   }
 };
 

@@ -46,7 +46,8 @@ LobeSum<T> Mixture<T>::lower() const {
   LobeSum<T> out;
   for (const auto& part : parts) {
     const T share = named("share", part.weight / total);
-    for (const auto& inner : tyndall::lower<T>(part.phase)) out.push_back({share * inner.weight, inner.lobe});
+    for (const auto& inner : tyndall::lower<T>(part.phase))
+      out.push_back({named("weight", inner.weight * share), inner.lobe});
   }
   return out;
 }

@@ -55,8 +55,11 @@ inline Spectrum evaluate(const SurfacePoint& s, const Vector& out, const Vector&
   const Spectrum reflected = fresnel(s, dot(o, half));
   const double shadowing = 1.0 / (1.0 + smith_lambda(s.alpha, o.z) + smith_lambda(s.alpha, i.z));
   const double specular = facet_density(s.alpha, half.z) * shadowing / (4.0 * o.z);
+  // What enters and leaves the body passes the surface twice. (The specification's example weighs with 1 - F(out .
+  // half) alone, which at grazing angles makes up to half again as much light as arrives.)
+  const Spectrum one = Spectrum::grey(1.0), passed = (one - fresnel(s, o.z)) * (one - fresnel(s, i.z));
   const Spectrum diffuse = s.base_color * ((1.0 - s.metallic) / std::numbers::pi * i.z);
-  return reflected * specular + (Spectrum::grey(1.0) - reflected) * diffuse;
+  return reflected * specular + passed * diffuse;
 }
 
 /// Chance of sampling the glossy lobe rather than the diffuse one, from their estimated albedos.

@@ -31,8 +31,14 @@ class DistanceTable {
     end_ = std::atan((range.end - a_) / h_);
     table_end_ = std::atan((std::min(range.end, cut) - a_) / h_);
     step_ = (table_end_ - begin_) / (knots - 1);
+    // Equidistant angles by rotation: one pair of sine and cosine instead of a tangent per knot.
+    double sine = std::sin(begin_), cosine = std::cos(begin_);
+    const double turn_sine = std::sin(step_), turn_cosine = std::cos(step_);
     for (int i = 0; i < knots; ++i) {
-      const double t = distance(begin_ + i * step_);
+      const double t = cosine > 1e-15 ? a_ + h_ * sine / cosine : infinity;
+      const double turned = sine * turn_cosine + cosine * turn_sine;
+      cosine = cosine * turn_cosine - sine * turn_sine;
+      sine = turned;
       value_[i] = std::isfinite(t) ? product(std::max(t, range.begin)) : 0.0;
       if (i > 0) mass_ += 0.5 * (value_[i - 1] + value_[i]) * step_;
     }

@@ -4,7 +4,7 @@
 
 namespace tyndall {
 
-double Film::noise() const {
+double SampleFilm::noise() const {
   double error = 0.0, signal = 0.0;
   for (const Pixel& p : pixels_) {
     const double mean = luminance(mean_beauty(p));
@@ -16,7 +16,7 @@ double Film::noise() const {
   return signal > 0.0 ? std::sqrt(error / signal) : 0.0;
 }
 
-Image Film::develop() const {
+Image SampleFilm::develop() const {
   Image image{width_, height_, {}, {}};
   const std::size_t beauty = add_layer(image, ""), single = add_layer(image, "single"),
                     surface = add_layer(image, "surface"), multiple = add_layer(image, "multiple"),

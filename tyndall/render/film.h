@@ -26,9 +26,9 @@ inline Spectrum variance_of_mean(const Pixel& p) {
   return map((p.beauty_squared / n - mean * mean) / (n - 1.0), [](double x) { return std::max(0.0, x); });
 }
 
-class Film {
+class SampleFilm {
  public:
-  Film(int width, int height)
+  SampleFilm(int width, int height)
       : width_(width), height_(height), pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
   int width() const { return width_; }
   int height() const { return height_; }

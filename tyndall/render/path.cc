@@ -1,10 +1,11 @@
 #include "tyndall/render/path.h"
 
-#include "tyndall/light/spot_cone.h"
 #include "tyndall/medium/free_flight.h"
 #include "tyndall/medium/scatter.h"
 #include "tyndall/render/bsdf.h"
-#include "tyndall/render/distance_table.h"
+#include "tyndall/render/lamp_aim.h"
+#include "tyndall/render/lamp_segment.h"
+#include "tyndall/render/parallel.h"
 #include "tyndall/render/path_lights.h"
 
 namespace tyndall {
@@ -29,6 +30,8 @@ struct Walk {
   Spectrum beta = Spectrum::grey(1.0);
   int scatterings = 0, bounces = 0;
   double direction_density = 0.0;  // with which ray.direction was sampled [1/sr]; 0: it was given (a camera ray)
+  LampAim aim;                     // of the event that sampled it
+  double first_promise = 0.0;      // PathLights::promise_at its first event
 
   int depth() const { return scatterings + bounces; }
 };
@@ -39,14 +42,13 @@ double balance(double a, double b) { return a / (a + b); }
 }  // namespace
 
 struct PathTracer::State {
-  explicit State(const PathContext::Prepared& context) : context(context) {}
+  explicit State(const PathContext::Prepared& prepared) : context(prepared) {}
 
   const PathContext::Prepared& context;
   PathSample out;
   std::vector<Stretch> stretches, shadow;
   ScatterPoint scatter, beside;  // at the collision; at a lamp's sample of the same segment
-  std::vector<DistanceTable> tables;
-  std::vector<std::size_t> tabled;  // the lamp of each table
+  LampSegment segment;
 
   bool may_go_on(const Walk& walk) const { return context.max_depth == 0 || walk.depth() < context.max_depth; }
 
@@ -70,9 +72,10 @@ struct PathTracer::State {
     return transmittance(context.medium, {from, way / distance}, distance, shadow);
   }
 
-  PathSample trace(const Ray& ray, double distance, RandomStream& random) {
+  PathSample trace(const Ray& ray, double distance, RandomStream& random, bool sees_sun) {
     out = {};
-    Walk walk{ray, Spectrum::grey(1.0), 0, 0, 0.0};
+    Walk walk;
+    walk.ray = ray;
     std::optional<Hit> hit = context.geometry.intersect(ray);
     if (hit) out.depth = hit->t;
     double end = hit ? hit->t : infinity;
@@ -89,7 +92,7 @@ struct PathTracer::State {
       if (hit) {
         if (bounce(through, *hit, random)) follow(through, random);
       } else if (distance == infinity) {
-        leave_scene(through, true);
+        leave_scene(through, sees_sun);
       }
     }
     if (!may_go_on(walk)) return out;
@@ -119,83 +122,112 @@ struct PathTracer::State {
       } else if (!bounce(walk, *hit, random)) {
         return;
       }
-      if (walk.depth() >= 5) {
-        const double survival = std::clamp(largest(walk.beta), 0.05, 0.9);
+      const double survival = survival_of(walk);
+      if (survival < 1.0) {
         if (random.next() >= survival) return;
         walk.beta *= 1.0 / survival;
       }
     }
   }
 
+  /// Russian roulette. By promise: throughput times the light to be had where the walk is, relative to where it began;
+  /// its weight never grows beyond what that promise has lost. And by depth, each time the number of events has
+  /// doubled: later orders are smoother, so fewer walks tell as much of them, and since weights grow no faster than a
+  /// root of the depth, variance stays bounded wherever light is ever lost.
+  double survival_of(const Walk& walk) const {
+    const double promise = largest(walk.beta) * context.lights.promise_at(walk.ray.origin) / walk.first_promise;
+    const int depth = walk.depth();
+    const bool doubled = depth >= 2 && (depth & (depth - 1)) == 0;
+    return std::clamp(2.0 * promise, 0.1, 1.0) * (doubled ? 0.5 : 1.0);
+  }
+
   /// Light of point and spot lamps scattered toward the walk from its segment [0, end], whatever happens to the walk
   /// later: one lamp, one distance, both chosen by what they promise.
   void lamps_along(const Walk& walk, double end, RandomStream& random) {
-    if (stretches.empty()) return;
-    tables.clear();
-    tabled.clear();
-    double promise = 0.0;
-    const double cut = depth_cut(walk.beta, end);
-    for (std::size_t i = 0; i < context.lights.lamps.size(); ++i) {
-      const Lamp& lamp = context.lights.lamps[i];
-      Interval range{0.0, end};
-      if (lamp.spot != nullptr) range = lit_interval(*lamp.spot, walk.ray, range);
-      if (range.empty()) continue;
-      const Vector to_lamp = lamp.position - walk.ray.origin;
-      const double a = dot(to_lamp, walk.ray.direction), h = length(to_lamp - walk.ray.direction * a);
-      tables.emplace_back(range, a, h, cut, [&](double t) { return promised(walk, lamp, t); });
-      tabled.push_back(i);
-      promise += tables.back().integral();
+    if (stretches.empty() || context.lights.lamps.empty()) return;
+    segment.set(context.medium, stretches, walk.ray, end, walk.beta);
+    const double xi[3] = {random.next(), random.next(), random.next()};
+    const LampSegment::Sample at = segment.sample(context.lights.lamps, walk.depth() == 0, xi[0], xi[1], xi[2]);
+    double weight = 1.0;
+    if (walk.direction_density > 0.0) {
+      const double other = walk.aim.tries() * walk.aim.density(context.lights.lamps, at.lamp, walk.ray);
+      weight = balance(walk.direction_density, other);
     }
-    if (tables.empty()) return;
-    // A twentieth of the choices is even: lamps whose table saw nothing keep a chance.
-    const double even = 0.05 / static_cast<double>(tables.size());
-    const auto chance_of = [&](std::size_t k) {
-      return promise > 0.0 ? even + 0.95 * tables[k].integral() / promise : 20.0 * even;
-    };
-    double pick = random.next();
-    std::size_t chosen = 0;
-    while (chosen + 1 < tables.size() && pick >= chance_of(chosen)) pick -= chance_of(chosen++);
-    const double xi_choice = random.next(), xi = random.next();
-    const DistanceTable::Sample at = tables[chosen].sample(xi_choice, xi);
-    if (!(at.t > 0.0 && at.t < end) || !(at.density > 0.0)) return;
-    const Lamp& lamp = context.lights.lamps[tabled[chosen]];
-    const Vector point = walk.ray.at(at.t), way = point - lamp.position;
+    add(walk, walk.beta * airlight(walk.ray, end, at) * weight, 1, 0);
+  }
+
+  /// Light of a lamp scattered back along the ray of `stretches` at a sampled distance, over the sample's density.
+  Spectrum airlight(const Ray& ray, double end, const LampSegment::Sample& at) {
+    if (!(at.t > 0.0 && at.t < end) || !(at.density > 0.0)) return {};
+    const Lamp& lamp = context.lights.lamps[at.lamp];
+    const Vector point = ray.at(at.t), way = point - lamp.position;
     const double squared = length_squared(way);
-    if (squared == 0.0) return;
-    const double distance = std::sqrt(squared);
-    const Vector travel = way / distance;  // of the lamp's light
+    if (squared == 0.0) return {};
+    const Vector travel = way / std::sqrt(squared);  // of the lamp's light
     const Spectrum intensity = lamp.intensity_toward(travel);
-    if (is_zero(intensity)) return;
+    if (is_zero(intensity)) return {};
     beside.set(context.medium, stretches, at.t);
-    const Spectrum scattered = beside.scattered(deflection_between(travel, -walk.ray.direction));
-    const Spectrum light = intensity * scattered * transmittance(stretches, at.t) / squared;
-    if (is_zero(light)) return;
-    const Spectrum visible = unoccluded(point, lamp.position);
-    add(walk, walk.beta * light * visible / (at.density * chance_of(chosen)), 1, 0);
+    const Spectrum scattered = beside.scattered(deflection_between(travel, -ray.direction));
+    const Spectrum light = intensity * scattered * transmittance(stretches, at.t) / (squared * at.density);
+    return is_zero(light) ? light : light * unoccluded(point, lamp.position);
   }
 
-  /// Distance beyond which the segment is too deep to matter for a table: optical depth 14 in the thinnest channel that
-  /// counts.
-  double depth_cut(const Spectrum& beta, double end) const {
-    double cut = 0.0;
-    for (std::size_t c = 0; c < channel_count; ++c) {
-      if (beta[c] > 0.05 * largest(beta)) cut = std::max(cut, distance_at_depth(stretches, c, 14.0, end));
+  /// More ways to the light of lamps one event ahead, for a walk about to leave `from` after `scatterings` or
+  /// `bounces`. The walk's own direction, chosen by the phase function or the surface alone, would meet it as sparks:
+  /// in the air near a lamp light goes as 1/angle, and a lamp may light a small place brightly. Two more directions are
+  /// drawn, one around a lamp with density 1/sin(angle), one to a place that a ray of a lamp hits; with the walk's own,
+  /// the balance heuristic bounds all weights. reflect(direction) is throughput per steradian, density(direction) that
+  /// of the walk's own choice.
+  template <class Reflect, class Density>
+  void toward_lamplight(const Walk& walk, const Vector& from, int scatterings, int bounces, RandomStream& random,
+                        Reflect reflect, Density density) {
+    const std::vector<Lamp>& lamps = context.lights.lamps;
+    if (lamps.empty() || (context.max_depth != 0 && walk.depth() + 1 >= context.max_depth)) return;
+    const double tries = walk.aim.tries();
+    if (random.next() >= tries) return;
+    const double xi[6] = {random.next(), random.next(), random.next(), random.next(), random.next(), random.next()};
+    const std::size_t lamp = walk.aim.choose(lamps, from, xi[0]);
+    const Ray around_lamp{from, walk.aim.direction(lamps[lamp], from, xi[1], xi[2])};
+    if (const Spectrum f = reflect(around_lamp.direction); !is_zero(f) && !context.medium.species.empty()) {
+      const double own = tries * walk.aim.density(lamps, lamp, around_lamp);
+      const auto hit = context.geometry.intersect(around_lamp);
+      const double end = hit ? hit->t : infinity;
+      stretches_along(context.medium, around_lamp, end, stretches);
+      if (own > 0.0 && !stretches.empty()) {
+        segment.set(context.medium, stretches, around_lamp, end, f);
+        const LampSegment::Sample at = segment.sample(lamps, lamp, xi[3], xi[4]);
+        const double weight = balance(own, density(around_lamp.direction)) / own;
+        add(walk, f * airlight(around_lamp, end, at) * weight, scatterings + 1, bounces);
+      }
     }
-    return cut;
+    const Ray beam{lamps[lamp].position, lamps[lamp].sample_direction(xi[5], random.next())};
+    const auto lit = context.geometry.intersect(beam);
+    if (!lit) return;
+    const Vector way = lit->point - from;
+    if (length_squared(way) == 0.0) return;
+    const Vector direction = normalized(way);
+    const Spectrum f = reflect(direction);
+    if (is_zero(f)) return;
+    const Spectrum reflected = evaluate(surface_point(context.geometry, *lit), -direction, -beam.direction);
+    if (is_zero(reflected)) return;
+    const double own = tries * beam_density(walk, lamp, *lit, from);
+    const Spectrum light = lamps[lamp].intensity_toward(beam.direction) / (lit->t * lit->t);
+    const Spectrum through = transmittance(context.medium, beam, lit->t, shadow);
+    const Vector start = context.geometry.leave(lit->point, lit->geometric_normal);
+    const double weight = balance(own, density(direction)) / own;
+    add(walk, f * reflected * light * through * unoccluded(from, start) * weight, scatterings, bounces + 1);
   }
 
-  /// The integrand of lamps_along times r^2, roughly: the light's own path is taken to see the extinction at the point.
-  double promised(const Walk& walk, const Lamp& lamp, double t) {
-    const Vector way = walk.ray.at(t) - lamp.position;
-    const double distance = length(way);
-    if (distance == 0.0) return 0.0;
-    const Vector travel = way / distance;
-    const Spectrum intensity = lamp.intensity_toward(travel);
-    if (is_zero(intensity)) return 0.0;
-    beside.set(context.medium, stretches, t);
-    const Spectrum depth = optical_depth(stretches, t) + extinction_at(stretches, t) * distance;
-    const Spectrum scattered = beside.scattered(deflection_between(travel, -walk.ray.direction));
-    return sum(walk.beta * intensity * scattered * map(depth, [](double x) { return std::exp(-x); }));
+  /// Density [1/sr] at `from` of the direction to a place on a surface that a ray of a lamp hits, chosen as above.
+  double beam_density(const Walk& walk, std::size_t lamp, const Hit& lit, const Vector& from) const {
+    const Lamp& light = context.lights.lamps[lamp];
+    const Vector way = lit.point - from, beam = lit.point - light.position;
+    const double facing = std::fabs(dot(lit.geometric_normal, normalized(way)));
+    const double incidence = std::fabs(dot(lit.geometric_normal, normalized(beam)));
+    if (facing == 0.0) return 0.0;
+    const double per_area =
+        walk.aim.chance(context.lights.lamps, lamp, from) / light.solid_angle() * incidence / length_squared(beam);
+    return per_area * length_squared(way) / facing;
   }
 
   /// A collision at distance t of the walk's segment: adds direct light of sun, surroundings and emissive surfaces, and
@@ -221,6 +253,11 @@ struct PathTracer::State {
       const Spectrum contribution = walk.beta * scatter.scattered(d) * light.radiance * weight;
       if (!is_zero(contribution)) add(walk, contribution * unoccluded({point, light.direction}, light.distance), 1, 0);
     }
+    walk.aim = LampAim(sum(walk.beta * extinction_at(stretches, t)) / sum(walk.beta), walk.depth() < 2 ? 1.0 : 0.3);
+    toward_lamplight(
+        walk, point, 1, 0, random,
+        [&](const Vector& next) { return walk.beta * scatter.scattered(deflection_between(walk.ray.direction, next)); },
+        [&](const Vector& next) { return scatter.density(deflection_between(walk.ray.direction, next)); });
     const Deflection<double> d = scatter.sample(xi[0]);
     const double density = scatter.density(d);
     if (!(density > 0.0)) return false;
@@ -228,6 +265,7 @@ struct PathTracer::State {
     walk.ray = {point, normalized(around(Frame::around(walk.ray.direction), d.mu, d.sine(), xi[1]))};
     walk.direction_density = density;
     ++walk.scatterings;
+    if (walk.first_promise == 0.0) walk.first_promise = context.lights.promise_at(point);
     return !is_zero(walk.beta);
   }
 
@@ -242,11 +280,16 @@ struct PathTracer::State {
     const SurfacePoint surface = surface_point(context.geometry, hit);
     const Vector out_direction = -walk.ray.direction;
     const Vector start = context.geometry.leave(hit.point, hit.geometric_normal);
-    if (const auto lamp = context.lights.sample_lamp(start, random.next()); lamp.density > 0.0) {
-      const Spectrum f = evaluate(surface, out_direction, lamp.direction);
-      if (!is_zero(f)) {
-        add(walk, walk.beta * f * lamp.radiance / lamp.density * unoccluded(start, lamp.position), 0, 1);
-      }
+    const LampSample lamp = context.lights.sample_lamp(start, random.next(), [&](const Vector& toward) {
+      return walk.beta * evaluate(surface, out_direction, toward);
+    });
+    if (lamp.density > 0.0) {
+      const Vector position = context.lights.lamps[lamp.lamp].position;
+      const double weight =
+          walk.direction_density > 0.0
+              ? balance(walk.direction_density, walk.aim.tries() * beam_density(walk, lamp.lamp, hit, walk.ray.origin))
+              : 1.0;
+      add(walk, lamp.reflected * unoccluded(start, position) * (weight / lamp.density), 0, 1);
     }
     for (const SunLight& sun : context.lights.suns) {
       const LightSample light = sample_sun(sun, random.next(), random.next());
@@ -262,30 +305,127 @@ struct PathTracer::State {
           balance(light.density, direction_density(surface, out_direction, light.direction)) / light.density;
       add(walk, walk.beta * f * light.radiance * weight * unoccluded({start, light.direction}, light.distance), 0, 1);
     }
-    const Vector in = sample_direction(surface, out_direction, random.next(), random.next(), random.next());
+    stretches_along(context.medium, {start, hit.geometric_normal}, infinity, stretches);
+    walk.aim = LampAim(sum(walk.beta * extinction_at(stretches, 0.0)) / sum(walk.beta), walk.depth() < 2 ? 1.0 : 0.3);
+    toward_lamplight(
+        walk, start, 0, 1, random,
+        [&](const Vector& next) { return walk.beta * evaluate(surface, out_direction, next); },
+        [&](const Vector& next) { return direction_density(surface, out_direction, next); });
+    const double xi[3] = {random.next(), random.next(), random.next()};
+    const Vector in = sample_direction(surface, out_direction, xi[0], xi[1], xi[2]);
     const double density = direction_density(surface, out_direction, in);
     if (!(density > 0.0)) return false;
     walk.beta *= evaluate(surface, out_direction, in) / density;
     walk.ray = {start, in};
     walk.direction_density = density;
     ++walk.bounces;
+    if (walk.first_promise == 0.0) walk.first_promise = context.lights.promise_at(start);
     return !is_zero(walk.beta) && is_finite(walk.beta);
   }
 
-  /// The walk leaves for the surroundings. Only the eye sees the sun's disc: everything else samples it as a light.
-  void leave_scene(const Walk& walk, bool eye) {
+  /// The walk leaves for the surroundings. Only the eye may see the sun's disc: everything else samples it as a light.
+  void leave_scene(const Walk& walk, bool sees_sun) {
     const double density = walk.direction_density > 0.0 ? context.lights.environment_density(walk.ray.direction) : 0.0;
     const double weight = density > 0.0 ? balance(walk.direction_density, density) : 1.0;
     add(walk, walk.beta * context.lights.environment(walk.ray.direction) * weight, 0, 0);
-    if (!eye) return;
+    if (!sees_sun) return;
     for (const SunLight& sun : context.lights.suns) add(walk, walk.beta * sun_disc(sun, walk.ray.direction), 0, 0);
   }
 };
 
+namespace {
+
+constexpr std::uint32_t block_samples = 256;
+
+/// The mean of `spp` samples of draw(tracer, number), summed in fixed blocks.
+template <class Draw>
+ProbeEstimate average(const PathContext& context, std::uint32_t spp, int threads, Draw draw) {
+  const std::size_t blocks = (spp + block_samples - 1) / block_samples;
+  std::vector<Spectrum> sums(blocks), squares(blocks);
+  std::vector<std::unique_ptr<PathTracer>> tracers;
+  for (int i = 0; i < thread_count(threads); ++i) tracers.push_back(std::make_unique<PathTracer>(context));
+  for_each_block(blocks, thread_count(threads), [&](std::size_t block, int thread) {
+    const auto first = static_cast<std::uint32_t>(block) * block_samples;
+    for (std::uint32_t i = first; i < std::min(spp, first + block_samples); ++i) {
+      const Spectrum x = draw(*tracers[static_cast<std::size_t>(thread)], i);
+      sums[block] += x;
+      squares[block] += x * x;
+    }
+  });
+  Spectrum sum, square;
+  for (std::size_t block = 0; block < blocks; ++block) sum += sums[block], square += squares[block];
+  const double n = spp;
+  ProbeEstimate estimate{sum / n, {}, {}};
+  const Spectrum variance = (square / n - estimate.radiance * estimate.radiance) / std::max(1.0, n - 1.0);
+  estimate.standard_error = map(variance, [](double x) { return std::sqrt(std::max(0.0, x)); });
+  return estimate;
+}
+
+}  // namespace
+
+ProbeEstimate path_probe(const PathContext& context, const Ray& ray, double distance, std::uint32_t spp,
+                         std::uint64_t seed, int threads) {
+  ProbeEstimate estimate = average(context, spp, threads, [&](PathTracer& tracer, std::uint32_t i) {
+    RandomStream random(seed, 0, i);
+    return tracer.trace(ray, distance, random).beauty();
+  });
+  const auto hit = context.prepared().geometry.intersect(ray);
+  std::vector<Stretch> scratch;
+  estimate.transmittance =
+      transmittance(context.prepared().medium, ray, std::min(distance, hit ? hit->t : infinity), scratch);
+  return estimate;
+}
+
+ProbeEstimate path_fluence(const PathContext& context, const Vector& point, std::uint32_t spp, std::uint64_t seed,
+                           int threads) {
+  const PathContext::Prepared& scene = context.prepared();
+  std::vector<Vector> toward;  // lamps: radiance near one goes as 1/angle, so half of the directions go there as 1/sin
+  for (const Lamp& lamp : scene.lights.lamps) {
+    if (length_squared(lamp.position - point) > 0.0) toward.push_back(normalized(lamp.position - point));
+  }
+  const double even = 1.0 / (4.0 * std::numbers::pi);
+  ProbeEstimate estimate = average(context, spp, threads, [&](PathTracer& tracer, std::uint32_t i) {
+    RandomStream random(seed, 0, i);
+    const double pick = random.next(), xi1 = random.next(), xi2 = random.next();
+    Vector direction;
+    if (toward.empty() || pick < 0.5) {
+      direction = sample_sphere(xi1, xi2);
+    } else {
+      const auto lamp = std::min(toward.size() - 1,
+                                 static_cast<std::size_t>((2.0 * pick - 1.0) * static_cast<double>(toward.size())));
+      const double angle = std::numbers::pi * xi1;
+      direction = around(Frame::around(toward[lamp]), std::cos(angle), std::sin(angle), xi2);
+    }
+    double density = toward.empty() ? even : 0.5 * even;
+    for (const Vector& lamp : toward) {
+      const double sine = deflection_between(lamp, direction).sine();
+      density += 0.5 / (2.0 * std::numbers::pi * std::numbers::pi * std::max(sine, 1e-12) *
+                        static_cast<double>(toward.size()));
+    }
+    return tracer.trace({point, normalized(direction)}, infinity, random, false).beauty() / density;
+  });
+  std::vector<Stretch> scratch;
+  const auto visible = [&](const Ray& ray, double distance) {
+    return scene.geometry.occluded(ray, distance) ? Spectrum{} : transmittance(scene.medium, ray, distance, scratch);
+  };
+  for (const Lamp& lamp : scene.lights.lamps) {
+    const Vector way = lamp.position - point;
+    const double distance = length(way);
+    if (distance == 0.0) continue;
+    const Ray ray{point, way / distance};
+    estimate.radiance += lamp.intensity_toward(-ray.direction) / (distance * distance) * visible(ray, distance);
+  }
+  for (const SunLight& sun : scene.lights.suns) {
+    estimate.radiance += sun.irradiance * visible({point, -normalized(sun.direction)}, infinity);
+  }
+  estimate.transmittance = transmittance(scene.medium, {point, {0.0, 1.0, 0.0}}, infinity, scratch);
+  return estimate;
+}
+
 PathTracer::PathTracer(const PathContext& context) : state_(new State(context.prepared())) {}
 PathTracer::~PathTracer() = default;
-PathSample PathTracer::trace(const Ray& ray, double distance, RandomStream& random) {
-  return state_->trace(ray, distance, random);
+PathSample PathTracer::trace(const Ray& ray, double distance, RandomStream& random, bool sees_sun) {
+  return state_->trace(ray, distance, random, sees_sun);
 }
 
 }  // namespace tyndall

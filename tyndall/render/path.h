@@ -47,7 +47,8 @@ class PathTracer {
 
   /// Radiance arriving at ray.origin from ray.direction (a unit vector). The ray ends at `distance` or the first
   /// surface; with a finite `distance` nothing at or beyond it is added, but what is there still lights the segment.
-  PathSample trace(const Ray& ray, double distance, RandomStream& random);
+  /// sees_sun: add the disc of a sun that the ray itself looks at.
+  PathSample trace(const Ray& ray, double distance, RandomStream& random, bool sees_sun = true);
 
  private:
   struct State;

@@ -19,7 +19,7 @@ struct Tile {
   int x0, y0, x1, y1;
 };
 
-std::vector<Tile> tiles_of(const Film& film, std::uint32_t order) {
+std::vector<Tile> tiles_of(const SampleFilm& film, std::uint32_t order) {
   std::vector<Tile> tiles;
   for (int y = 0; y < film.height(); y += tile_size) {
     for (int x = 0; x < film.width(); x += tile_size) {
@@ -48,7 +48,7 @@ class Rendering {
 
   /// Calls work(tile, thread) for all tiles of one pass of `samples`, reporting from the calling thread (thread 0).
   template <class Work>
-  void pass(const Film& film, const std::vector<Tile>& tiles, int samples, Work work) {
+  void pass(const SampleFilm& film, const std::vector<Tile>& tiles, int samples, Work work) {
     std::atomic<std::size_t> finished{0};
     for_each_block(tiles.size(), thread_count(settings_.threads), [&](std::size_t i, int thread) {
       if (stopped()) return;
@@ -65,7 +65,7 @@ class Rendering {
 
  private:
   using Clock = std::chrono::steady_clock;
-  void tell(const Film& film, double fraction, bool pass_is_over) {
+  void tell(const SampleFilm& film, double fraction, bool pass_is_over) {
     const auto now = Clock::now();
     if (!report_ || (now - told_ < std::chrono::milliseconds(100) && fraction < 1.0)) return;
     told_ = now;
@@ -86,7 +86,7 @@ class Rendering {
 
 Image render(const Scene& scene, const Geometry& geometry, const RenderSettings& settings,
              const std::function<void(const RenderProgress&)>& report, const std::atomic<bool>* stop) {
-  Film film(scene.film.width, scene.film.height);
+  SampleFilm film(scene.film.width, scene.film.height);
   const CameraRays camera(scene.camera, scene.film);
   const std::vector<Tile> tiles = tiles_of(film, settings.tile_order);
   Rendering rendering(settings, report, stop);
@@ -96,7 +96,7 @@ Image render(const Scene& scene, const Geometry& geometry, const RenderSettings&
     quadrature = single_description(context);
     rendering.pass(film, tiles, settings.spp, [&](const Tile& tile, int) {
       for (int y = tile.y0; y < tile.y1; ++y) {
-        for (int x = tile.x0; x < tile.x1; ++x) Film::set(film.at(x, y), single_pixel(context, x, y, settings.spp));
+        for (int x = tile.x0; x < tile.x1; ++x) SampleFilm::set(film.at(x, y), single_pixel(context, x, y, settings.spp));
       }
     });
   } else {
@@ -118,7 +118,7 @@ Image render(const Scene& scene, const Geometry& geometry, const RenderSettings&
             for (int i = 0; i < samples; ++i) {
               RandomStream random(settings.seed, number, static_cast<std::uint32_t>(done + i));
               const double dx = random.next(), dy = random.next();
-              Film::add(pixel, tracers[static_cast<std::size_t>(thread)]->trace(camera.through(x + dx, y + dy),
+              SampleFilm::add(pixel, tracers[static_cast<std::size_t>(thread)]->trace(camera.through(x + dx, y + dy),
                                                                                 infinity, random));
             }
           }

@@ -23,7 +23,7 @@ struct RenderSettings {
 };
 
 struct RenderProgress {
-  double fraction, seconds, noise;  // noise: Film::noise, 0 when unknown
+  double fraction, seconds, noise;  // noise: SampleFilm::noise (film.h), 0 when unknown
   int spp;                          // samples that every pixel has
 };
 

@@ -13,13 +13,12 @@ namespace tyndall {
 /// the fixed quadratures of lights that fill an angle.
 struct SingleSettings {
   double tolerance = 1e-9;       // relative, of each adaptive integral along a ray
-  int environment_polar = 8;     // directions per lobe of the phase function: polar ...
-  int environment_azimuth = 16;  // ... times azimuth
-  int environment_suns = 64;     // brightest cells of a panorama, each treated as a sun of its own
-  int emissive_points = 128;     // points shared out over all emissive triangles by power
+  int sky_directions = 512;      // of the surroundings, shared by the lobes of the medium
+  int sky_suns = 64;             // cells of a panorama too bright for that, each treated as a sun of its own
+  int emissive_points = 64;      // shared out over all emissive triangles by power
   int sun_rings = 3;             // directions over the disc of a sun with an angular diameter: rings ...
   int sun_azimuth = 8;           // ... times azimuth
-  int surface_directions = 128;  // environment seen by a surface
+  int surface_directions = 256;  // of the surroundings, for a surface
 };
 
 /// What `single` prepares once per scene; read only afterwards, by any number of threads.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "tyndall/render/single_wedge.h"
 #include "tyndall/scene/scene.h"
 
 namespace tyndall {
@@ -18,13 +19,9 @@ class ShadowIndex {
 
   bool empty() const { return triangles_.empty(); }
 
-  /// The parts of `range` that `lamp` lights, in rising order. range.end may be infinite. A lamp within 1e-12 of its
-  /// distance beside the ray has no plane: then the range comes back whole, and the caller asks along the ray.
-  void lit_from(const Vector& lamp, const Ray& ray, const Interval& range, std::vector<Interval>& lit) const;
-
-  /// The same for light from infinitely far away; `toward` is the unit direction to its source.
-  void lit_from_direction(const Vector& toward, const Ray& ray, const Interval& range,
-                          std::vector<Interval>& lit) const;
+  /// The parts of the wedge's stretch of ray that its lamp lights, in rising order. Where the wedge is not flat, the
+  /// whole stretch: the caller asks along the ray.
+  void lit(const Wedge& wedge, std::vector<Interval>& out) const;
 
  private:
   struct Triangle {
@@ -34,10 +31,7 @@ class ShadowIndex {
     std::array<float, 3> low, high;
     std::uint32_t first, count;  // triangles of a leaf; count 0: children are the next node and node `first`
   };
-  struct View;  // the plane of a query
   std::uint32_t build(std::uint32_t first, std::uint32_t end);
-  void collect(const View& view, std::vector<Interval>& shadows) const;
-  void lit(const View& view, const Interval& range, std::vector<Interval>& out) const;
 
   std::vector<Triangle> triangles_;
   std::vector<Node> nodes_;

@@ -124,11 +124,12 @@ struct Geometry::Index {
   struct Query : RTCIntersectContext {
     const Index* index;
     Ray ray;
-    double begin, end;  // a candidate counts when begin < t < end
+    double begin, end;  // a candidate counts when begin < t < end ...
+    double height;      // ... and the ray's origin and end lie more than this off its plane [m]
     RTCRayHit embree;
   };
-  bool prepare(Query& query, const Ray& ray, double begin, double end) const;
-  bool any(const Ray& ray, double begin, double end) const;
+  bool prepare(Query& query, const Ray& ray, double begin, double end, double height) const;
+  bool any(const Ray& ray, double begin, double end, double height) const;
   static void filter(const RTCFilterFunctionNArguments* arguments);
 };
 
@@ -190,10 +191,11 @@ void Geometry::Index::build() {
     throw std::runtime_error("Embree cannot index the scene (error " + std::to_string(error) + ")");
 }
 
-bool Geometry::Index::prepare(Query& query, const Ray& ray, double begin, double end) const {
+bool Geometry::Index::prepare(Query& query, const Ray& ray, double begin, double end, double height) const {
   const Interval within = intersection(inside(box, ray), {begin, end});
   if (within.empty()) return false;
-  const double start = within.begin - slack;
+  // From far away the point of entry is rounded too.
+  const double start = within.begin - slack - 1e-14 * within.begin;
   const Vector origin = (ray.at(start) - center) * scale;
   rtcInitIntersectContext(&query);
   query.filter = filter;
@@ -201,6 +203,7 @@ bool Geometry::Index::prepare(Query& query, const Ray& ray, double begin, double
   query.ray = ray;
   query.begin = begin;
   query.end = end;
+  query.height = height;
   RTCRay& r = query.embree.ray;
   r.org_x = static_cast<float>(origin.x);
   r.org_y = static_cast<float>(origin.y);
@@ -223,13 +226,19 @@ void Geometry::Index::filter(const RTCFilterFunctionNArguments* arguments) {
   if (arguments->valid[0] != -1) return;  // N is 1: single rays only
   const auto& query = *static_cast<const Query*>(arguments->context);
   const auto* const hit = reinterpret_cast<const RTCHit*>(arguments->hit);
-  const auto met = crossing(triangle_of(query.index->scene.meshes[hit->geomID], hit->primID), query.ray);
-  if (!met || !(met->t > query.begin) || !(met->t < query.end)) arguments->valid[0] = 0;
+  const Triangle triangle = triangle_of(query.index->scene.meshes[hit->geomID], hit->primID);
+  const auto met = crossing(triangle, query.ray);
+  bool counts = met && met->t > query.begin && met->t < query.end;
+  if (counts && query.height > 0.0) {
+    const double slope = std::fabs(dot(query.ray.direction, triangle.normal)) / length(triangle.normal);
+    counts = std::min(met->t, query.end - met->t) * slope > query.height;
+  }
+  if (!counts) arguments->valid[0] = 0;
 }
 
-bool Geometry::Index::any(const Ray& ray, double begin, double end) const {
+bool Geometry::Index::any(const Ray& ray, double begin, double end, double height) const {
   Query query;
-  if (!prepare(query, ray, begin, end)) return false;
+  if (!prepare(query, ray, begin, end, height)) return false;
   rtcOccluded1(embree, &query, &query.embree.ray);
   return query.embree.ray.tfar < 0.0F;
 }
@@ -242,7 +251,7 @@ Geometry::~Geometry() = default;
 
 std::optional<Hit> Geometry::intersect(const Ray& ray, double end) const {
   Index::Query query;
-  if (!index_->prepare(query, ray, 0.0, end)) return std::nullopt;
+  if (!index_->prepare(query, ray, 0.0, end, 0.0)) return std::nullopt;
   rtcIntersect1(index_->embree, &query, &query.embree);
   const RTCHit& found = query.embree.hit;
   if (found.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
@@ -278,15 +287,16 @@ std::optional<Hit> Geometry::intersect(const Ray& ray, double end) const {
   return hit;
 }
 
-bool Geometry::occluded(const Ray& ray, double end) const { return index_->any(ray, 0.0, end); }
+bool Geometry::occluded(const Ray& ray, double end) const { return index_->any(ray, 0.0, end, 0.0); }
 
 bool Geometry::occluded(const Vector& from, const Vector& to) const {
   const Vector step = to - from;
   const double distance = length(step);
-  // Both ends may lie on surfaces, exact to a rounding of the largest coordinate; those do not count.
-  const double margin = 1e-10 * std::max({index_->size, length(from), length(to)});
-  if (!(distance > 2.0 * margin)) return false;
-  return index_->any({from, step / distance}, margin, distance - margin);
+  // Both ends may lie on surfaces, exact to a few roundings of the largest coordinate. Those surfaces, and what the
+  // segment merely runs along, do not count: 1e-13 is a thousand such roundings.
+  const double height = 1e-13 * std::max({index_->size, length(from), length(to)});
+  if (!(distance > 2.0 * height)) return false;
+  return index_->any({from, step / distance}, 0.0, distance, height);
 }
 
 Vector Geometry::leave(const Vector& point, const Vector& normal) const {

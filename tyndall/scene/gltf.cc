@@ -2,16 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <set>
-#include <tuple>
 
 #include "tyndall/document/spelling.h"
-#include "tyndall/image/decode.h"
 #include "tyndall/image/rehearsal.h"
-#include "tyndall/image/tone.h"
 #include "tyndall/image/whole_file.h"
+#include "tyndall/scene/gltf_material.h"
 #include "tyndall/scene/gltf_model.h"
 #include "tyndall/scene/transform.h"
 
@@ -21,20 +18,11 @@ namespace {
 constexpr double largest_coordinate = 1e15;  // [m]
 constexpr double degrees = 180.0 / std::numbers::pi;
 
-std::string at(const std::string& pointer, std::size_t index) { return pointer + "/" + std::to_string(index); }
-
-/// What a material needs of the primitives that carry it.
-struct MaterialUse {
-  int index = -1;         // in Scene::materials
-  int texture_set = 0;    // n of TEXCOORD_n
-  Transform texture_map;  // KHR_texture_transform, on (u, v, 0)
-};
-
 /// Builds scene parts from a model. One per file.
 class Reading {
  public:
   Reading(const GltfModel& gltf, Scene& scene, double unit)
-      : gltf_(gltf), model_(gltf.model), scene_(scene), unit_(unit) {}
+      : gltf_(gltf), model_(gltf.model), scene_(scene), unit_(unit), materials_(gltf, scene, ignored_) {}
   std::optional<GltfCamera> run();
 
  private:
@@ -43,17 +31,10 @@ class Reading {
                      const std::string& pointer);
   std::vector<std::array<std::uint32_t, 3>> triangles(const tinygltf::Primitive& primitive, std::size_t vertices,
                                                       const std::string& pointer);
-  const MaterialUse& material(int index, const std::string& pointer);
-  const tinygltf::Image* picture(int texture, const std::string& pointer);
-  const Decoded<std::uint8_t>& pixels(const tinygltf::Image* image);
-  int color_texture(int texture, const std::string& pointer);
-  Spectrum mean_of(int texture, bool srgb, const std::string& pointer);
-  void read_texture_map(const tinygltf::TextureInfo& info, MaterialUse& use, const std::string& pointer);
   void add_light(int index, const Transform& to_world, const std::string& pointer);
   void add_camera(int index, const Transform& to_world, const std::string& pointer);
   Transform transform_of(const tinygltf::Node& node, const std::string& pointer) const;
   Vector unit_vector(const Vector& v, const std::string& pointer) const;
-  double number(const tinygltf::Value& value, const std::string& pointer) const;
   void note_unsupported();
 
   const GltfModel& gltf_;
@@ -61,19 +42,10 @@ class Reading {
   Scene& scene_;
   double unit_;
   std::size_t vertex_count_ = 0, triangle_count_ = 0;
-  std::map<int, MaterialUse> materials_;
-  std::map<std::tuple<const tinygltf::Image*, int, int>, int> textures_;
-  const tinygltf::Image* decoded_ = nullptr;  // whose pixels are in pixels_
-  Decoded<std::uint8_t> pixels_;
   std::set<std::string> ignored_;
+  GltfMaterials materials_;
   std::optional<GltfCamera> camera_;
 };
-
-double Reading::number(const tinygltf::Value& value, const std::string& pointer) const {
-  const double x = value.IsNumber() ? value.GetNumberAsDouble() : NAN;
-  if (!std::isfinite(x)) throw gltf_.fault(pointer, "no finite number", "a finite number");
-  return x;
-}
 
 Vector Reading::unit_vector(const Vector& v, const std::string& pointer) const {
   const double size = length(v);
@@ -113,13 +85,13 @@ std::optional<GltfCamera> Reading::run() {
   std::vector<bool> seen(model_.nodes.size(), false);
   const auto add = [&](const std::vector<int>& nodes, const Transform& parent, const std::string& pointer) {
     for (std::size_t i = nodes.size(); i-- > 0;) {
-      element(gltf_, model_.nodes, nodes[i], at(pointer, i));
+      element(gltf_, model_.nodes, nodes[i], item(pointer, i));
       waiting.push_back({static_cast<std::size_t>(nodes[i]), parent});
     }
   };
   if (!model_.scenes.empty()) {
     const int scene = model_.defaultScene < 0 ? 0 : model_.defaultScene;
-    const std::string pointer = at("/scenes", static_cast<std::size_t>(scene)) + "/nodes";
+    const std::string pointer = item("/scenes", scene) + "/nodes";
     add(element(gltf_, model_.scenes, scene, "/scene").nodes, to_metres, pointer);
   } else {
     // No scene: everything that hangs below nothing.
@@ -127,7 +99,7 @@ std::optional<GltfCamera> Reading::run() {
     for (std::size_t n = 0; n < model_.nodes.size(); ++n) {
       for (std::size_t i = 0; i < model_.nodes[n].children.size(); ++i) {
         const int index = model_.nodes[n].children[i];
-        element(gltf_, model_.nodes, index, at(at("/nodes", n) + "/children", i));
+        element(gltf_, model_.nodes, index, item(item("/nodes", n) + "/children", i));
         child[static_cast<std::size_t>(index)] = true;
       }
     }
@@ -140,7 +112,7 @@ std::optional<GltfCamera> Reading::run() {
   while (!waiting.empty()) {
     const Waiting next = waiting.back();
     waiting.pop_back();
-    const std::string pointer = at("/nodes", next.node);
+    const std::string pointer = item("/nodes", next.node);
     if (seen[next.node]) throw gltf_.fault(pointer, "a node in two places of the tree", "a strict tree of nodes");
     seen[next.node] = true;
     const Transform to_world = next.parent * transform_of(model_.nodes[next.node], pointer);
@@ -153,13 +125,13 @@ std::optional<GltfCamera> Reading::run() {
 
 void Reading::add_node(std::size_t index, const Transform& to_world) {
   const tinygltf::Node& node = model_.nodes[index];
-  const std::string pointer = at("/nodes", index);
+  const std::string pointer = item("/nodes", index);
   if (node.skin >= 0) ignored_.insert("skins");
   if (node.mesh >= 0) {
     const tinygltf::Mesh& mesh = element(gltf_, model_.meshes, node.mesh, pointer + "/mesh");
-    const std::string mesh_pointer = at("/meshes", static_cast<std::size_t>(node.mesh)) + "/primitives";
+    const std::string mesh_pointer = item("/meshes", node.mesh) + "/primitives";
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
-      add_primitive(mesh.primitives[i], node.name.empty() ? mesh.name : node.name, to_world, at(mesh_pointer, i));
+      add_primitive(mesh.primitives[i], node.name.empty() ? mesh.name : node.name, to_world, item(mesh_pointer, i));
     }
   }
   if (node.camera >= 0) add_camera(node.camera, to_world, pointer);
@@ -268,7 +240,7 @@ void Reading::add_primitive(const tinygltf::Primitive& primitive, const std::str
       n = {static_cast<float>(u.x), static_cast<float>(u.y), static_cast<float>(u.z)};
     }
   }
-  const MaterialUse& use = material(primitive.material, pointer + "/material");
+  const MaterialUse& use = materials_.use(primitive.material, pointer + "/material");
   mesh.material = use.index;
   if (use.index >= 0 && scene_.materials[static_cast<std::size_t>(use.index)].base_color_texture >= 0) {
     const std::string key = "TEXCOORD_" + std::to_string(use.texture_set);
@@ -286,166 +258,9 @@ void Reading::add_primitive(const tinygltf::Primitive& primitive, const std::str
   scene_.meshes.push_back(std::move(mesh));
 }
 
-const tinygltf::Image* Reading::picture(int texture, const std::string& pointer) {
-  const int source = element(gltf_, model_.textures, texture, pointer).source;
-  if (source < 0) {
-    ignored_.insert("textures whose picture is in an unknown format");
-    return nullptr;
-  }
-  const std::string image_pointer = at("/images", static_cast<std::size_t>(source));
-  const tinygltf::Image& image =
-      element(gltf_, model_.images, source, at("/textures", static_cast<std::size_t>(texture)) + "/source");
-  if (image.image.empty()) {
-    if (gltf_.unread) throw *gltf_.unread;
-    throw gltf_.fault(image_pointer, "no picture", "a PNG or JPEG picture");
-  }
-  return &image;
-}
-
-const Decoded<std::uint8_t>& Reading::pixels(const tinygltf::Image* image) {
-  if (decoded_ != image) {
-    const auto index = static_cast<std::size_t>(image - model_.images.data());
-    decoded_ = nullptr;
-    pixels_ = decode_picture(place(gltf_.json.file, 0, at("/images", index)), image->image);
-    decoded_ = image;
-  }
-  return pixels_;
-}
-
-int Reading::color_texture(int texture, const std::string& pointer) {
-  const tinygltf::Image* const image = picture(texture, pointer);
-  if (image == nullptr) return -1;
-  int wrap_u = TINYGLTF_TEXTURE_WRAP_REPEAT, wrap_v = TINYGLTF_TEXTURE_WRAP_REPEAT;
-  if (const int sampler = model_.textures[static_cast<std::size_t>(texture)].sampler; sampler >= 0) {
-    const auto& s =
-        element(gltf_, model_.samplers, sampler, at("/textures", static_cast<std::size_t>(texture)) + "/sampler");
-    wrap_u = s.wrapS;
-    wrap_v = s.wrapT;
-  }
-  const auto [known, fresh] = textures_.try_emplace({image, wrap_u, wrap_v}, static_cast<int>(scene_.textures.size()));
-  if (!fresh) return known->second;
-  std::array<float, 256> linear{};
-  for (std::size_t code = 0; code < 256; ++code)
-    linear[code] = static_cast<float>(linear_from_srgb(static_cast<double>(code) / 255.0));
-  const auto wrap = [](int gl) {
-    return gl == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE     ? Wrap::clamp
-           : gl == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::mirror
-                                                         : Wrap::repeat;
-  };
-  const Decoded<std::uint8_t>& from = pixels(image);
-  Texture result{from.width, from.height, {}, wrap(wrap_u), wrap(wrap_v)};
-  result.color.resize(from.rgb.size() / 3);
-  for (std::size_t i = 0; i < from.rgb.size(); ++i) result.color[i / 3][i % 3] = linear[from.rgb[i]];
-  scene_.textures.push_back(std::move(result));
-  return known->second;
-}
-
-Spectrum Reading::mean_of(int texture, bool srgb, const std::string& pointer) {
-  const tinygltf::Image* const image = picture(texture, pointer);
-  if (image == nullptr) return Spectrum::grey(1.0);
-  const Decoded<std::uint8_t>& from = pixels(image);
-  std::array<std::array<std::size_t, 256>, 3> histogram{};
-  for (std::size_t i = 0; i < from.rgb.size(); ++i) ++histogram[i % 3][from.rgb[i]];
-  Spectrum mean;
-  for (std::size_t c = 0; c < 3; ++c) {
-    for (std::size_t code = 0; code < 256; ++code) {
-      const double value = static_cast<double>(code) / 255.0;
-      mean[c] += static_cast<double>(histogram[c][code]) * (srgb ? linear_from_srgb(value) : value);
-    }
-  }
-  return mean / (static_cast<double>(from.rgb.size()) / 3.0);
-}
-
-void Reading::read_texture_map(const tinygltf::TextureInfo& info, MaterialUse& use, const std::string& pointer) {
-  use.texture_set = info.texCoord;
-  const auto found = info.extensions.find("KHR_texture_transform");
-  if (found == info.extensions.end()) return;
-  const tinygltf::Value& map = found->second;
-  const std::string map_pointer = pointer + "/extensions/KHR_texture_transform";
-  const auto pair = [&](const char* key, double missing) {
-    Vector v{missing, missing, 1.0};
-    if (!map.Has(key)) return v;
-    const tinygltf::Value& list = map.Get(key);
-    if (!list.IsArray() || list.ArrayLen() != 2) throw gltf_.fault(map_pointer + "/" + key, "no pair", "two numbers");
-    v.x = number(list.Get(0), map_pointer + "/" + key);
-    v.y = number(list.Get(1), map_pointer + "/" + key);
-    return v;
-  };
-  const Vector offset = pair("offset", 0.0), scale = pair("scale", 1.0);
-  const double angle = map.Has("rotation") ? number(map.Get("rotation"), map_pointer + "/rotation") : 0.0;
-  if (map.Has("texCoord")) use.texture_set = static_cast<int>(number(map.Get("texCoord"), map_pointer + "/texCoord"));
-  // Offset x rotation x scale, counter-clockwise in a picture whose v points down (the extension's own matrices).
-  use.texture_map.x = Vector{std::cos(angle), -std::sin(angle), 0.0} * scale.x;
-  use.texture_map.y = Vector{std::sin(angle), std::cos(angle), 0.0} * scale.y;
-  use.texture_map.origin = {offset.x, offset.y, 0.0};
-}
-
-const MaterialUse& Reading::material(int index, const std::string& pointer) {
-  const auto [known, fresh] = materials_.try_emplace(index);
-  MaterialUse& use = known->second;
-  if (!fresh || index < 0) return use;
-  const tinygltf::Material& from = element(gltf_, model_.materials, index, pointer);
-  const std::string here = at("/materials", static_cast<std::size_t>(index));
-  const auto color = [&](const std::vector<double>& values, const char* key, double most) {
-    Spectrum c;
-    for (std::size_t i = 0; i < 3 && i < values.size(); ++i) {
-      if (!(values[i] >= 0.0 && values[i] <= most)) {
-        throw gltf_.fault(here + "/" + key, "a colour out of range",
-                          "numbers from 0 to " + std::string(most == 1.0 ? "1" : "1e30"));
-      }
-      c[i] = values[i];
-    }
-    return c;
-  };
-  const auto fraction = [&](double value, const char* key) {
-    if (!(value >= 0.0 && value <= 1.0))
-      throw gltf_.fault(here + "/pbrMetallicRoughness/" + key, "a number out of range", "a number from 0 to 1");
-    return value;
-  };
-  const auto& surface = from.pbrMetallicRoughness;
-  Material result;
-  result.name = from.name;
-  result.double_sided = from.doubleSided;
-  result.base_color = color(surface.baseColorFactor, "pbrMetallicRoughness/baseColorFactor", 1.0);
-  result.metallic = fraction(surface.metallicFactor, "metallicFactor");
-  result.roughness = fraction(surface.roughnessFactor, "roughnessFactor");
-  if (surface.baseColorTexture.index >= 0) {
-    const std::string texture_pointer = here + "/pbrMetallicRoughness/baseColorTexture";
-    result.base_color_texture = color_texture(surface.baseColorTexture.index, texture_pointer + "/index");
-    read_texture_map(surface.baseColorTexture, use, texture_pointer);
-  }
-  if (surface.metallicRoughnessTexture.index >= 0) {
-    const Spectrum mean = mean_of(surface.metallicRoughnessTexture.index, false,
-                                  here + "/pbrMetallicRoughness/metallicRoughnessTexture/index");
-    result.roughness *= mean[1];
-    result.metallic *= mean[2];
-    ignored_.insert("the variation of metalness and roughness over a surface (their means count)");
-  }
-  // Exporters write factors above 1 although glTF says otherwise; what they mean is clear.
-  result.emission = color(from.emissiveFactor, "emissiveFactor", 1e30);
-  if (const auto found = from.extensions.find("KHR_materials_emissive_strength"); found != from.extensions.end()) {
-    const std::string strength_pointer = here + "/extensions/KHR_materials_emissive_strength/emissiveStrength";
-    const double strength =
-        found->second.Has("emissiveStrength") ? number(found->second.Get("emissiveStrength"), strength_pointer) : 1.0;
-    if (!(strength >= 0.0 && strength <= 1e30))
-      throw gltf_.fault(strength_pointer, "a number out of range", "a number of at least 0");
-    result.emission *= strength;
-  }
-  if (from.emissiveTexture.index >= 0 && !is_zero(result.emission)) {
-    result.emission *= mean_of(from.emissiveTexture.index, true, here + "/emissiveTexture/index");
-    ignored_.insert("the variation of emission over a surface (its mean counts)");
-  }
-  if (from.normalTexture.index >= 0) ignored_.insert("normal maps");
-  if (from.occlusionTexture.index >= 0) ignored_.insert("occlusion maps");
-  if (from.alphaMode != "OPAQUE") ignored_.insert("transparency (alpha)");
-  use.index = static_cast<int>(scene_.materials.size());
-  scene_.materials.push_back(std::move(result));
-  return use;
-}
-
 void Reading::add_light(int index, const Transform& to_world, const std::string& pointer) {
   const tinygltf::Light& light = element(gltf_, model_.lights, index, pointer);
-  const std::string here = at("/extensions/KHR_lights_punctual/lights", static_cast<std::size_t>(index));
+  const std::string here = item("/extensions/KHR_lights_punctual/lights", index);
   if (!(light.intensity >= 0.0 && light.intensity <= 1e30))
     throw gltf_.fault(here + "/intensity", "a number out of range", "a number of at least 0");
   Spectrum power = Spectrum::grey(light.intensity);
@@ -482,7 +297,7 @@ void Reading::add_camera(int index, const Transform& to_world, const std::string
   }
   if (camera_) return;
   const double fov = from.perspective.yfov * degrees, aspect = from.perspective.aspectRatio;
-  const std::string here = at("/cameras", static_cast<std::size_t>(index)) + "/perspective";
+  const std::string here = item("/cameras", index) + "/perspective";
   if (!(fov > 0.0 && fov < 180.0))
     throw gltf_.fault(here + "/yfov", "a number out of range", "a number above 0 and below pi");
   GltfCamera result;
@@ -527,10 +342,7 @@ std::optional<GltfCamera> add_gltf(Scene& scene, const std::filesystem::path& fi
     Scene scratch;
     load(scratch, file, bytes, meters_per_unit, allow_path);
   });
-  Scene together = scene;
-  const auto camera = load(together, file, bytes, meters_per_unit, allow_path);
-  scene = std::move(together);
-  return camera;
+  return load(scene, file, bytes, meters_per_unit, allow_path);
 }
 
 }  // namespace tyndall

@@ -25,7 +25,7 @@ struct GltfCamera {
 /// supported is a Fault.
 ///
 /// Everything is first parsed in a child process with limits. Files that this one refers to must lie under its folder
-/// unless `allow_path`. Throws Fault; `scene` is then as before.
+/// unless `allow_path`. Throws Fault; `scene` may then hold part of the file.
 std::optional<GltfCamera> add_gltf(Scene& scene, const std::filesystem::path& file, double meters_per_unit = 1.0,
                                    bool allow_path = false);
 

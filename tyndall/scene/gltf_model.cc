@@ -47,7 +47,7 @@ struct Folder {
 bool read_for_tinygltf(std::vector<unsigned char>* out, std::string*, const std::string& name, void* user) {
   Folder& folder = *static_cast<Folder*>(user);
   try {
-    *out = read_whole_file(referenced_file(folder.file, name, folder.allow_path));
+    *out = read_whole_file(referenced_file(folder.file, name, folder.allow_path, place(folder.file.string())));
     return true;
   } catch (const Fault& fault) {
     if (!folder.fault) folder.fault = fault;
@@ -89,6 +89,32 @@ void check_extensions(const GltfModel& gltf) {
   }
 }
 
+/// tinygltf skips what is not a list where glTF has one; a scene with half of its parts would be no help.
+void check_lists(const GltfModel& gltf) {
+  const auto check = [&](const Json& owner, const char* key, const std::string& pointer, bool of_objects) {
+    if (!owner.contains(key)) return;
+    const Json& list = owner[key];
+    const std::string here = pointer + "/" + key;
+    if (!list.is_array()) throw gltf.fault(here, described(list), "a list");
+    for (std::size_t i = 0; of_objects && i < list.size(); ++i) {
+      if (!list[i].is_object()) throw gltf.fault(item(here, i), described(list[i]), "an object");
+    }
+  };
+  const Json& root = gltf.json.root;
+  for (const char* key : {"accessors", "animations", "buffers", "bufferViews", "cameras", "images", "materials",
+                          "meshes", "nodes", "samplers", "scenes", "skins", "textures"}) {
+    check(root, key, "", true);
+  }
+  const auto check_inside = [&](const char* key, const char* inner, bool of_objects) {
+    for (std::size_t i = 0; root.contains(key) && i < root[key].size(); ++i) {
+      check(root[key][i], inner, item(std::string("/") + key, i), of_objects);
+    }
+  };
+  check_inside("meshes", "primitives", true);
+  check_inside("nodes", "children", false);
+  check_inside("scenes", "nodes", false);
+}
+
 }  // namespace
 
 Fault GltfModel::fault(const std::string& pointer, std::string found, std::string expected) const {
@@ -101,6 +127,7 @@ GltfModel parse_gltf(const std::filesystem::path& file, Bytes bytes, bool allow_
   const std::string where = place(file.string());
   GltfModel gltf{parse_json(json_of(where, bytes), file.string()), {}, {}};
   check_extensions(gltf);
+  check_lists(gltf);
 
   Folder folder{file, allow_path, {}};
   tinygltf::TinyGLTF reader;

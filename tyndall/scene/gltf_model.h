@@ -1,6 +1,6 @@
 #pragma once
-// A glTF file as tinygltf parsed it, and its numbers read with every bound checked. For gltf.cc only: whoever includes
-// this compiles tinygltf.
+// A glTF file as tinygltf parsed it, and its numbers read with every bound checked. For the .cc files of the glTF
+// reader only: whoever includes this compiles tinygltf.
 #include <tiny_gltf.h>
 
 #include <array>
@@ -26,6 +26,12 @@ struct GltfModel {
   /// A Fault about the value at a JSON pointer.
   Fault fault(const std::string& pointer, std::string found, std::string expected) const;
 };
+
+/// A JSON pointer extended by an index.
+template <class Index>
+std::string item(const std::string& pointer, Index index) {
+  return pointer + "/" + std::to_string(index);
+}
 
 /// Parses a file's bytes and reads the buffers and pictures it refers to. Throws Fault: for damaged files, references
 /// that lead nowhere or out of the folder (unless allow_path), and required extensions that are not supported.

@@ -4,10 +4,13 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "tyndall/light/light.h"
 #include "tyndall/medium/medium.h"
+#include "tyndall/number/field.h"
 
 namespace tyndall {
 
@@ -42,19 +45,42 @@ struct Mesh {
 
 /// A pinhole at `position` looking at `look_at`; vertical_fov in degrees.
 struct Camera {
+  static constexpr std::string_view text = "A pinhole camera.";
   Vector position{0.0, 0.0, 5.0}, look_at, up{0.0, 1.0, 0.0};
   double vertical_fov = 40.0;
+  static constexpr auto fields() {
+    return std::tuple{
+        Field{"position", &Camera::position, any_number, "m", "Where the camera stands.", Scaling::length, true},
+        Field{"look_at", &Camera::look_at, any_number, "m", "A point in the middle of the picture.", Scaling::length,
+              true},
+        Field{"up", &Camera::up, any_number, "1", "The direction that is up in the picture."},
+        Field{"vertical_fov", &Camera::vertical_fov, Range{0.0, 180.0, true, true}, "degrees",
+              "Angle from the lower to the upper edge of the picture."}};
+  }
 };
 
 struct Film {
+  static constexpr std::string_view text = "The size of the picture.";
   int width = 640, height = 360;
+  static constexpr auto fields() {
+    return std::tuple{Field{"width", &Film::width, Range{1.0, 16384.0}, "1", "Pixels from left to right."},
+                      Field{"height", &Film::height, Range{1.0, 16384.0}, "1", "Pixels from top to bottom."}};
+  }
 };
 
 /// What the scene file asks of the renderer; the command line may say otherwise.
 struct IntegratorSettings {
+  static constexpr std::string_view text = "How the picture is computed.";
   std::string name = "path";
   int spp = 64;
   int max_depth = 0;  // 0: no limit
+  static constexpr auto fields() {
+    return std::tuple{Field{"name", &IntegratorSettings::name, any_number, "",
+                            "path: all orders of scattering, with noise; single: one scattering, without."},
+                      Field{"spp", &IntegratorSettings::spp, Range{1.0, 1e9}, "1", "Samples per pixel."},
+                      Field{"max_depth", &IntegratorSettings::max_depth, Range{0.0, 1e9}, "1",
+                            "The most scatterings and bounces of a path; 0 is no limit."}};
+  }
 };
 
 struct Scene {

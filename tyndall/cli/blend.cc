@@ -1,0 +1,57 @@
+// tyndall blend: a medium between two.
+#include <iostream>
+#include <string>
+
+#include "tyndall/cli/commands.h"
+#include "tyndall/document/binding.h"
+#include "tyndall/document/medium_blend.h"
+
+namespace tyndall {
+namespace {
+
+struct BlendOptions {
+  std::string a, b, out, how = "interpolate";
+  double at = 0.0;
+};
+
+BlendHow how_of(const std::string& word) {
+  constexpr auto words = words_of(BlendHow{});
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i] == word) return static_cast<BlendHow>(i);
+  }
+  throw Fault("--how", in_quotes(word), one_of(word, {words.begin(), words.end()}));
+}
+
+void blend(const BlendOptions& options) {
+  if (!(options.at >= 0.0 && options.at <= 1.0)) {
+    throw Fault("--at", "the number " + short_number(options.at), "a number from 0 (the first) to 1 (the second)");
+  }
+  const BlendHow how = how_of(options.how);
+  const MediumFile a = read_medium_file(options.a), b = read_medium_file(options.b);
+  if (channels_of(a) != channels_of(b)) {
+    std::cerr << "tyndall: warning: the channels of " << printable(options.a) << " and " << printable(options.b)
+              << " mean different things; they are blended one by one\n";
+  }
+  write_medium_file(options.out, blended(a, b, options.at, how, "blend of " + options.a + " and " + options.b));
+}
+
+}  // namespace
+
+void add_blend(CLI::App& app) {
+  auto options = std::make_shared<BlendOptions>();
+  CLI::App* command = app.add_subcommand("blend", "Make a medium that stands between two");
+  command->add_option("A", options->a, "Medium file to start from")->required();
+  command->add_option("B", options->b, "Medium file to go to")->required();
+  command->add_option("--at", options->at, "How far: 0 is A, 1 is B")->required();
+  command->add_option("--how", options->how, "interpolate, mix or morph")->capture_default_str();
+  command->add_option("-o,--output", options->out, "Medium file to write (*.medium.json)")->required();
+  command->footer(
+      "interpolate moves every dial (w, thickness, lobes, ...) in a straight line; both media must use the\n"
+      "  same model.\n"
+      "mix has both media present, each in its share; any two media will do.\n"
+      "morph changes thickness by equal factors in equal steps, as the eye judges it; any two media will do.\n\n"
+      "Example: tyndall blend haze.medium.json fog.medium.json --at 0.3 --how morph -o between.medium.json");
+  command->callback([options] { blend(*options); });
+}
+
+}  // namespace tyndall

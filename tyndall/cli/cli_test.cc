@@ -1,0 +1,288 @@
+// The program as a user runs it: show, phase, blend, and what it says when it cannot.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+#include "tests/shared_folder.h"
+#include "tyndall/document/binding.h"
+#include "tyndall/document/medium_file.h"
+
+namespace tyndall {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+struct Outcome {
+  int code = -1;
+  std::string out, err;
+};
+
+std::string text_of(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+/// A temporary folder in which the program is run.
+class Program : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(fs::exists(TYNDALL_PROGRAM)) << "build tyndall_cli first";
+    std::string name = (fs::temp_directory_path() / "tyndall-cli-XXXXXX").string();
+    folder_ = ::mkdtemp(name.data());
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  /// Runs `tyndall <arguments>` through the shell; arguments are ours, quoted where they need it.
+  Outcome tyndall(const std::string& arguments) const {
+    const fs::path out = folder_ / "stdout", err = folder_ / "stderr";
+    const std::string command = "cd '" + folder_.string() + "' && '" + TYNDALL_PROGRAM "' " + arguments + " >'" +
+                                out.string() + "' 2>'" + err.string() + "' </dev/null";
+    const int status = std::system(command.c_str());
+    const Outcome run{WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(out), text_of(err)};
+    fs::remove(out);
+    fs::remove(err);
+    return run;
+  }
+  Json json_of(const std::string& arguments) const {
+    const Outcome run = tyndall(arguments + " --json");
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_EQ(run.err, "");
+    return Json::parse(run.out, nullptr, false);
+  }
+  std::string example(const std::string& name) const {
+    return "'" + (fs::path(TYNDALL_SOURCE_DIR) / "examples" / "media" / (name + ".medium.json")).string() + "'";
+  }
+  void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
+  std::size_t files() const {
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(Program, ShowPrintsTheKeysOfTheContract) {
+  const Json json = json_of("show " + example("harbour_fog"));
+  for (const char* key : {"scattering", "absorption", "extinction", "albedo", "mean_free_path", "visibility_5",
+                          "visibility_2", "mean_cosine"}) {
+    ASSERT_TRUE(json.at(key).is_array()) << key;
+    EXPECT_EQ(json.at(key).size(), 3u) << key;
+  }
+  EXPECT_EQ(json.at("species").size(), 5u);
+  EXPECT_EQ(json.at("exaggeration"), 1);
+  const double hazy_and_murky = -std::log(0.05) / 600.0;
+  EXPECT_NEAR(json["extinction"][1].get<double>(), hazy_and_murky + 1e-4 + 1.36e-5 + 7e-5, 1e-15);
+}
+
+TEST_F(Program, ShowHoldsTheVisibilityThatWasTyped) {
+  for (const char* w : {"0", "0.2", "0.5", "0.7", "1"}) {
+    write("m.medium.json", R"({"format": "tyndall-medium/1", "meters_per_unit": 1000, "background": {"exaggeration": 3},
+      "conditions": {"model": "simple", "w": )" +
+                               std::string(w) + R"(, "thickness": {"visibility": 2.5},
+      "hold": "visibility", "veil": {"density": 0.1, "albedo": 0.5}},
+      "species": [{"scattering": 0.02, "absorption": 0.05}]})");
+    EXPECT_NEAR(json_of("show m.medium.json")["visibility_5"][1].get<double>(), 2500.0, 1e-8) << w;
+  }
+}
+
+TEST_F(Program, ShowSaysNullWhereNothingIsThere) {
+  write("m.medium.json", R"({"format": "tyndall-medium/1"})");
+  const Json json = json_of("show m.medium.json");
+  for (const char* key : {"albedo", "mean_free_path", "visibility_5", "visibility_2", "mean_cosine"}) {
+    EXPECT_TRUE(json.at(key)[0].is_null()) << key;
+  }
+  EXPECT_EQ(json["extinction"], Json::parse("[0,0,0]"));
+  EXPECT_THAT(tyndall("show m.medium.json").out, HasSubstr("vacuum"));
+}
+
+TEST_F(Program, ShowPrintsATable) {
+  const Outcome run = tyndall("show " + example("river_mist"));
+  EXPECT_EQ(run.code, 0);
+  for (const char* part :
+       {"River mist", "visibility, 5 % contrast", "219.9 m", "murky", "mie_murky", "exaggerated by a factor of 4"}) {
+    EXPECT_THAT(run.out, HasSubstr(part));
+  }
+}
+
+TEST_F(Program, PhaseOfALawGivesScalars) {
+  const Json json = json_of("phase henyey_greenstein:g=0.7 --at -1,0,1 --moments 3 --sample 0,0.5,1");
+  EXPECT_EQ(json["mu"], Json::parse("[-1,0,1]"));
+  EXPECT_NEAR(json["density"][2].get<double>(), 1.50313001809012, 1e-13);
+  EXPECT_NEAR(json["density"][1].get<double>(), 0.0223141788394392, 1e-15);
+  EXPECT_NEAR(json["mean_cosine"].get<double>(), 0.7, 1e-15);
+  EXPECT_NEAR(json["legendre"][3].get<double>(), 0.343, 1e-15);
+  EXPECT_EQ(json["legendre"].size(), 4u);
+  EXPECT_EQ(json["sampled_mu"][0], -1);
+  EXPECT_NEAR(json["sampled_mu"][1].get<double>(), 0.8785, 1e-14);
+  EXPECT_EQ(json["sampled_mu"][2], 1);
+}
+
+TEST_F(Program, PhaseOfAMediumGivesChannels) {
+  const Json json = json_of("phase " + example("harbour_fog") + " --at 1,-1 --moments 1 --sample 0.25");
+  for (const char* key : {"density", "legendre", "sampled_mu"}) {
+    for (const Json& entry : json.at(key)) EXPECT_EQ(entry.size(), 3u) << key;
+  }
+  EXPECT_EQ(json["mean_cosine"].size(), 3u);
+  const Json shown = json_of("show " + example("harbour_fog"));
+  for (std::size_t c = 0; c < 3; ++c) {
+    EXPECT_NEAR(json["mean_cosine"][c].get<double>(), shown["mean_cosine"][c].get<double>(), 1e-14);
+    EXPECT_NEAR(json["legendre"][1][c].get<double>(), shown["mean_cosine"][c].get<double>(), 1e-14);
+  }
+  // Air is in the mixture, so that it is coloured although every law is grey.
+  EXPECT_NE(json["density"][0][0], json["density"][0][2]);
+  write("m.medium.json", R"({"format": "tyndall-medium/1", "species": [{"absorption": 1}]})");
+  EXPECT_EQ(json_of("phase m.medium.json --at 0")["density"], Json::parse("[[null,null,null]]"));
+}
+
+TEST_F(Program, PhaseAgreesWithTheReferenceDensitiesAndMoments) {
+  TYNDALL_NEEDS_SHARED_FILE(truth, "acceptance/public.json");
+  const std::map<std::string, std::string> laws = {{"isotropic", "isotropic"},
+                                                   {"rayleigh", "rayleigh"},
+                                                   {"hg_0.7", "henyey_greenstein:g=0.7"},
+                                                   {"hg_0.98", "henyey_greenstein:g=0.98"},
+                                                   {"mie_hazy", "mie_hazy"},
+                                                   {"mie_murky", "mie_murky"}};
+  const auto number = [](const Json& x) { return x.is_string() ? std::stod(x.get<std::string>()) : x.get<double>(); };
+  int checked = 0;
+  const Json all = Json::parse(std::ifstream(truth));
+  for (const Json& item : all.at("phase_functions").at("items")) {
+    const auto law = laws.find(item.at("name"));
+    if (law == laws.end()) continue;
+    std::ostringstream mus;
+    mus.precision(17);
+    std::vector<double> densities;
+    for (const auto& [degrees, density] : item.at("p(theta_deg)").items()) {
+      mus << (densities.empty() ? "" : ",") << std::cos(std::stod(degrees) * std::acos(-1.0) / 180.0);
+      densities.push_back(number(density));
+    }
+    const Json json = json_of("phase " + law->second + " --moments 8 --at=" + mus.str());
+    for (std::size_t i = 0; i < densities.size(); ++i) {
+      EXPECT_NEAR(json["density"][i].get<double>(), densities[i], 2e-11 * densities[i]) << law->first << " " << i;
+    }
+    for (std::size_t l = 0; l <= 8; ++l) {
+      EXPECT_NEAR(json["legendre"][l].get<double>(), number(item.at("chi_0..8")[l]), 1e-12) << law->first << " " << l;
+    }
+    ++checked;
+  }
+  EXPECT_GE(checked, 3);
+}
+
+TEST_F(Program, BlendStartsAtAAndEndsAtB) {
+  const std::string media = example("harbour_fog") + " " + example("river_mist");
+  for (const char* how : {"interpolate", "mix", "morph"}) {
+    for (const auto& [at, end] : {std::pair{"0", "harbour_fog"}, std::pair{"1", "river_mist"}}) {
+      const Outcome run = tyndall("blend " + media + " --at " + at + " --how " + how + " -o c.medium.json");
+      ASSERT_EQ(run.code, 0) << run.err;
+      Json expected = json_of("show " + example(end)), got = json_of("show c.medium.json");
+      EXPECT_EQ(expected, got) << how << at;
+    }
+    ASSERT_EQ(tyndall("blend " + media + " --at 0.3 --how " + how + " -o c.medium.json").code, 0);
+    EXPECT_EQ(tyndall("show c.medium.json").code, 0);
+  }
+  EXPECT_EQ(files(), 1u);  // nothing temporary is left
+}
+
+TEST_F(Program, BlendInterpolatesWAndThickness) {
+  const auto medium = [](const char* w, const char* thickness) {
+    return std::string(R"({"format": "tyndall-medium/1", "conditions": {"model": "simple", "w": )") + w +
+           ", \"thickness\": " + thickness + "}}";
+  };
+  write("a.medium.json", medium("0.4", "1e-4"));
+  write("b.medium.json", medium("0.8", "4e-2"));
+  ASSERT_EQ(tyndall("blend a.medium.json b.medium.json --at 0.5 -o c.medium.json").code, 0);
+  const Json json = Json::parse(text_of(folder_ / "c.medium.json"));
+  EXPECT_NEAR(json["conditions"]["w"].get<double>(), 0.6, 1e-15);
+  EXPECT_NEAR(json["conditions"]["thickness"].get<double>(), 0.02005, 1e-17);
+}
+
+TEST_F(Program, BlendRefusesUnlikeModelsAndPointsToMix) {
+  const Outcome run =
+      tyndall("blend " + example("harbour_fog") + " " + example("dusty_room") + " --at 0.5 -o c.medium.json");
+  EXPECT_EQ(run.code, 2);
+  EXPECT_THAT(run.err, HasSubstr("mix"));
+  EXPECT_EQ(files(), 0u);
+}
+
+TEST_F(Program, AnswersEveryBadFileWithExitCode2AndItsPlace) {
+  for (const auto& entry : fs::directory_iterator(fs::path(TYNDALL_SOURCE_DIR) / "tests" / "bad" / "media")) {
+    const Outcome run = tyndall("show '" + entry.path().string() + "'");
+    EXPECT_EQ(run.code, 2) << entry.path();
+    EXPECT_EQ(run.out, "");
+    EXPECT_THAT(run.err, StartsWith("tyndall: " + entry.path().string() + ":"));
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+  }
+}
+
+TEST_F(Program, AnswersMisuseWithExitCode2AndNothingOnStdout) {
+  const std::string media = example("harbour_fog") + " " + example("haze");
+  for (const std::string& arguments : {std::string(""),
+                                       std::string("shwo x"),
+                                       std::string("show"),
+                                       std::string("show absent.medium.json"),
+                                       std::string("show . --json"),
+                                       "show " + example("haze") + " --jsn",
+                                       std::string("phase"),
+                                       std::string("phase henyey_greenstien:g=0.5"),
+                                       std::string("phase henyey_greenstein:g=1"),
+                                       std::string("phase isotropic --at 2"),
+                                       std::string("phase isotropic --at 0,,1"),
+                                       std::string("phase isotropic --at nan"),
+                                       std::string("phase isotropic --moments -1"),
+                                       std::string("phase isotropic --moments 1000000"),
+                                       std::string("phase isotropic --moments two"),
+                                       std::string("phase isotropic --sample 1.5"),
+                                       "blend " + media + " --at 0.5",
+                                       "blend " + media + " -o c.medium.json",
+                                       "blend " + media + " --at nan -o c.medium.json",
+                                       "blend " + media + " --at 1.1 -o c.medium.json",
+                                       "blend " + media + " --at 0.5 --how interpolat -o c.medium.json",
+                                       "blend " + media + " --at 0.5 --how mix -o no/such/folder/c.medium.json",
+                                       "blend " + media + " --at 0.5 --how mix -o .",
+                                       "blend " + example("haze") + " --at 0 -o c.medium.json"}) {
+    const Outcome run = tyndall(arguments);
+    EXPECT_EQ(run.code, 2) << arguments << ": " << run.err;
+    EXPECT_EQ(run.out, "") << arguments;
+    EXPECT_NE(run.err, "") << arguments;
+    EXPECT_EQ(files(), 0u) << arguments;
+  }
+  EXPECT_THAT(tyndall("shwo x").err, HasSubstr("did you mean \"show\"?"));
+}
+
+TEST_F(Program, SaysSoWhenItsOutputCannotBeWritten) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  const std::string command = "'" TYNDALL_PROGRAM "' show " + example("haze") + " >/dev/full 2>/dev/null";
+  const int status = std::system(command.c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 1);
+}
+
+TEST_F(Program, HelpExplainsEveryCommandWithAnExample) {
+  const Outcome all = tyndall("--help");
+  EXPECT_EQ(all.code, 0);
+  EXPECT_EQ(all.err, "");
+  std::istringstream lines(all.out.substr(all.out.find("Subcommands:")));
+  std::string line;
+  std::getline(lines, line);
+  int commands = 0;
+  while (std::getline(lines, line) && !line.empty()) {
+    if (line.substr(0, 2) != "  " || line[2] == ' ') continue;
+    const Outcome help = tyndall(line.substr(2, line.find(' ', 2) - 2) + " --help");
+    EXPECT_EQ(help.code, 0);
+    EXPECT_THAT(help.out, HasSubstr("Example: tyndall ")) << line;
+    ++commands;
+  }
+  EXPECT_GE(commands, 3);
+}
+
+}  // namespace
+}  // namespace tyndall

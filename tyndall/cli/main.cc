@@ -1,0 +1,74 @@
+// The program tyndall. Exit codes: 0 done, 1 something went wrong inside or while writing, 2 the request or a file in
+// it cannot be used (nothing has been written then).
+#include <exception>
+#include <iostream>
+#include <new>
+#include <string>
+
+#include "tyndall/cli/commands.h"
+#include "tyndall/document/fault.h"
+#include "tyndall/document/spelling.h"
+
+namespace tyndall {
+namespace {
+
+constexpr int internal_failure = 1, unusable_request = 2;
+
+using AddCommand = void (*)(CLI::App&);
+constexpr AddCommand commands[] = {
+#include "command_list.inc"
+};
+
+/// What was probably meant where the first word is no command.
+std::string command_hint(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return "";
+  std::vector<std::string_view> names;
+  for (const CLI::App* command : app.get_subcommands({})) {
+    if (command->get_name() == argv[1]) return "";
+    names.push_back(command->get_name());
+  }
+  return "no command " + in_quotes(argv[1]) + ", only " + one_of(argv[1], names);
+}
+
+int complain(int code, const std::string& message) {
+  std::cerr << "tyndall: " << message << '\n';
+  return code;
+}
+
+int run(int argc, char** argv) {
+  CLI::App app{"Tyndall designs the air of a picture: haze, fog, smoke, dust, clear air.", "tyndall"};
+  app.footer("tyndall COMMAND --help explains a command and gives an example.");
+  app.require_subcommand(1);
+  app.get_formatter()->column_width(34);
+  for (const AddCommand add : commands) add(app);
+  if (argc < 2) {
+    std::cerr << app.help();
+    return unusable_request;
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    std::cout << app.help();
+  } catch (const CLI::ParseError& error) {
+    const std::string hint = command_hint(app, argc, argv);
+    return complain(unusable_request, hint.empty() ? error.what() + std::string(" (see --help)") : hint);
+  }
+  if (!std::cout.flush()) return complain(internal_failure, "the output could not be written");
+  return 0;
+}
+
+}  // namespace
+}  // namespace tyndall
+
+int main(int argc, char** argv) {
+  using namespace tyndall;
+  try {
+    return run(argc, argv);
+  } catch (const Fault& fault) {
+    return complain(unusable_request, fault.what());
+  } catch (const std::bad_alloc&) {
+    return complain(internal_failure, "not enough memory");
+  } catch (const std::exception& error) {
+    return complain(internal_failure, error.what());
+  }
+}

@@ -1,0 +1,176 @@
+// `tyndall probe` as a user runs it: scene files written to a folder, numbers read from its JSON.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <sstream>
+
+#include "tests/shared_folder.h"
+
+namespace tyndall {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+class Probe : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(fs::exists(TYNDALL_PROGRAM)) << "build tyndall_cli first";
+    std::string name = (fs::temp_directory_path() / "tyndall-probe-XXXXXX").string();
+    folder_ = ::mkdtemp(name.data());
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  int run(const std::string& arguments, std::string& out) const {
+    const fs::path file = folder_ / "stdout";
+    const int status = std::system(("'" TYNDALL_PROGRAM "' probe '" + (folder_ / "x.scene.json").string() + "' " +
+                                    arguments + " >'" + file.string() + "' 2>'" + (folder_ / "stderr").string() + "'")
+                                       .c_str());
+    std::ostringstream text;
+    text << std::ifstream(file).rdbuf();
+    out = text.str();
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  json probe(const json& scene, const std::string& arguments) const {
+    std::ofstream(folder_ / "x.scene.json") << scene.dump();
+    std::string out;
+    const int code = run(arguments + " --json", out);
+    std::ostringstream messages;
+    messages << std::ifstream(folder_ / "stderr").rdbuf();
+    EXPECT_EQ(code, 0) << messages.str();
+    return json::parse(out, nullptr, false);
+  }
+
+  fs::path folder_;
+};
+
+json phase_named(const std::string& name) {
+  if (name == "hg0.7") return {{"law", "henyey_greenstein"}, {"g", 0.7}};
+  if (name == "hazy" || name == "murky") return {{"law", "mie_" + name}};
+  return {{"law", name}};
+}
+
+json medium_of(double scattering, double absorption, const std::string& law) {
+  return {{"format", "tyndall-medium/1"},
+          {"species", {{{"scattering", scattering}, {"absorption", absorption}, {"phase", phase_named(law)}}}}};
+}
+
+json scene_with(const json& medium, const json& lights) {
+  return {{"format", "tyndall-scene/1"}, {"medium", medium}, {"lights", lights}};
+}
+
+std::string text_of(const json& numbers) {
+  std::ostringstream text;
+  text.precision(17);
+  for (std::size_t i = 0; i < numbers.size(); ++i) text << (i > 0 ? "," : "") << numbers[i].get<double>();
+  return text.str();
+}
+std::string text_of(double x) { return text_of(json::array({x})); }
+
+TEST_F(Probe, SingleReachesThePublishedAirlight) {
+  TYNDALL_NEEDS_SHARED_FILE(truth, "acceptance/public.json");
+  const json all = json::parse(std::ifstream(truth));
+  int count = 0;
+  for (const char* kind : {"airlight_point", "airlight_spot"}) {
+    for (const json& item : all.at(kind).at("items")) {
+      for (const char* law : {"isotropic", "rayleigh", "hg0.7", "hazy", "murky"}) {
+        if (!item.contains(law)) continue;
+        const double sigma = item["sigma_t"], albedo = item["albedo"];
+        json light;
+        json origin = {0, 0, 0}, direction = {1, 0, 0};
+        if (item.contains("spot_pos")) {
+          light = {{"type", "spot"},
+                   {"position", item["spot_pos"]},
+                   {"direction", item["spot_dir_unnormalised"]},
+                   {"intensity", item["intensity_W_per_sr"]},
+                   {"inner_angle", item["half_angle_deg"]},
+                   {"outer_angle", item["half_angle_deg"]}};
+          origin = item["camera"];
+          direction = item["view_dir"];
+        } else {
+          light = {{"type", "point"}, {"position", {item["a"], item["h"], 0}}, {"intensity", item["intensity"]}};
+        }
+        const json out = probe(scene_with(medium_of(sigma * albedo, sigma * (1.0 - albedo), law), json::array({light})),
+                               "--origin " + text_of(origin) + " --direction " + text_of(direction) + " --distance " +
+                                   text_of(item["d"].get<double>()) + " --integrator single");
+        const double expected = std::stod(item[law].get<std::string>());
+        for (std::size_t c = 0; c < 3; ++c) {
+          EXPECT_NEAR(out["radiance"][c].get<double>() / expected, 1.0, 1e-10) << kind << item["id"] << law;
+          EXPECT_EQ(out["standard_error"][c], 0) << kind << item["id"] << law;
+          EXPECT_NEAR(out["transmittance"][c].get<double>(), std::exp(-sigma * item["d"].get<double>()), 1e-12);
+        }
+        ++count;
+      }
+    }
+  }
+  EXPECT_GE(count, 10);
+}
+
+TEST_F(Probe, UnitsOfTheSceneDoNotChangeTheLight) {
+  const auto radiance = [&](double unit) {  // metres per unit; everything is stated in units
+    json medium = medium_of(0.1 * unit, 0.02 * unit, "hazy");
+    medium["meters_per_unit"] = unit;
+    json scene = scene_with(medium, {{{"type", "point"}, {"position", {4 / unit, 1 / unit, 0}}, {"intensity", 3}}});
+    scene["meters_per_unit"] = unit;
+    return probe(scene, "--origin 0,0,0 --direction 2,0,0 --distance " + text_of(9 / unit))["radiance"][1]
+        .get<double>();
+  };
+  const double metres = radiance(1.0);
+  EXPECT_NEAR(radiance(0.01) / metres, 1.0, 1e-12);
+  EXPECT_NEAR(radiance(1000.0) / metres, 1.0, 1e-12);
+}
+
+TEST_F(Probe, WithoutADistanceTheSkyIsAdded) {
+  const json scene = scene_with(medium_of(0.0, 0.0, "isotropic"), {{{"type", "environment"}, {"radiance", {1, 2, 3}}}});
+  EXPECT_EQ(probe(scene, "--origin 0,0,0 --direction 0,1,0")["radiance"], json::parse("[1,2,3]"));
+  EXPECT_EQ(probe(scene, "--origin 0,0,0 --direction 0,1,0 --distance 5")["radiance"], json::parse("[0,0,0]"));
+  EXPECT_EQ(probe(scene, "--origin 0,0,0 --direction 0,1,0 --distance 5")["transmittance"], json::parse("[1,1,1]"));
+}
+
+TEST_F(Probe, FluenceOfALampInVacuumIsItsIrradiance) {
+  const json lamp = {{"type", "point"}, {"position", {0, 0, 2}}, {"intensity", 8}};
+  for (const char* integrator : {"single", "path"}) {
+    const json out = probe(scene_with(medium_of(0.0, 0.0, "isotropic"), json::array({lamp})),
+                           std::string("--origin 0,0,0 --fluence --spp 64 --integrator ") + integrator);
+    EXPECT_NEAR(out["radiance"][0].get<double>(), 2.0, 1e-12) << integrator;
+    EXPECT_EQ(out["fluence"], out["radiance"]);
+  }
+}
+
+TEST_F(Probe, PathAgreesWithSingleInThinAirAndStatesItsError) {
+  const json scene =
+      scene_with(medium_of(1e-4, 0.0, "hazy"), {{{"type", "point"}, {"position", {4, 1, 0}}, {"intensity", 3}}});
+  const std::string ray = "--origin 0,0,0 --direction 1,0,0 --distance 9 --integrator ";
+  const json single = probe(scene, ray + "single"), path = probe(scene, ray + "path --spp 20000");
+  const double error = path["standard_error"][0];
+  EXPECT_GT(error, 0.0);
+  EXPECT_NEAR(path["radiance"][0].get<double>(), single["radiance"][0].get<double>(),
+              4.0 * error + 2e-3 * single["radiance"][0].get<double>());
+}
+
+TEST_F(Probe, ARayThroughALampIsNullNotAnError) {
+  const json scene =
+      scene_with(medium_of(0.1, 0.0, "isotropic"), {{{"type", "point"}, {"position", {4, 0, 0}}, {"intensity", 3}}});
+  EXPECT_TRUE(probe(scene, "--origin 0,0,0 --direction 1,0,0")["radiance"][0].is_null());
+}
+
+TEST_F(Probe, AnswersMisuseWithExitCode2) {
+  std::ofstream(folder_ / "x.scene.json") << scene_with(medium_of(0.1, 0.0, "isotropic"), json::array()).dump();
+  for (const char* arguments :
+       {"", "--origin 0,0,0", "--origin 0,0 --direction 1,0,0", "--origin 0,0,0 --direction 0,0,0",
+        "--origin 0,0,0 --direction 1,0,0 --distance 0", "--origin 0,0,0 --direction 1,0,0 --distance nan",
+        "--origin 0,0,0 --direction 1,0,0 --distance -1", "--origin a,b,c --direction 1,0,0",
+        "--origin 0,0,0 --direction 1,0,0 --integrator both", "--origin inf,0,0 --direction 1,0,0"}) {
+    std::string out;
+    EXPECT_EQ(run(arguments, out), 2) << arguments;
+    EXPECT_EQ(out, "") << arguments;
+  }
+}
+
+}  // namespace
+}  // namespace tyndall

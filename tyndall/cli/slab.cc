@@ -1,0 +1,136 @@
+// tyndall slab: light through a plane-parallel layer of a medium.
+#include "tyndall/render/slab.h"
+
+#include <charconv>
+#include <iostream>
+#include <memory>
+
+#include "tyndall/cli/commands.h"
+#include "tyndall/cli/table.h"
+#include "tyndall/document/medium_file.h"
+#include "tyndall/document/spelling.h"
+
+namespace tyndall {
+namespace {
+
+struct SlabOptions {
+  std::string medium, thickness, illumination = "beam";
+  std::vector<double> mu;
+  double mu0 = 1.0, ground = 0.0;
+  std::uint32_t spp = 1000000;
+  std::uint64_t seed = 1;
+  int threads = 0;
+  bool json = false;
+};
+
+double thickness_of(const std::string& text) {
+  if (text == "inf") return infinity;
+  double metres = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), metres);
+  if (error != std::errc{} || end != text.data() + text.size() || !(metres > 0.0) || std::isinf(metres)) {
+    throw Fault("--thickness", in_quotes(text), "a length in metres above 0, or inf");
+  }
+  return metres;
+}
+
+OrderedJson written(const Spectrum& values) {
+  OrderedJson list = OrderedJson::array();
+  for (const double x : values.value) list.push_back(written_number(x));
+  return list;
+}
+
+void print_json(const SlabRequest& request, const SlabResult& result) {
+  OrderedJson out = OrderedJson::object(), errors = OrderedJson::object();
+  const auto put = [&](const char* key, const Estimate& e) {
+    out[key] = written(e.mean);
+    errors[key] = written(e.standard_error);
+  };
+  put("reflectance", result.reflectance);
+  put("transmittance_diffuse", result.transmittance_diffuse);
+  out["transmittance_direct"] = written(result.transmittance_direct);
+  if (!request.mu.empty()) {
+    out["mu"] = request.mu;
+    const auto list = [&](const char* key, const std::vector<Estimate>& estimates) {
+      for (const Estimate& e : estimates) {
+        out[key].push_back(written(e.mean));
+        errors[key].push_back(written(e.standard_error));
+      }
+    };
+    list("reflection", result.reflection);
+    list("transmission", result.transmission);
+  }
+  out["standard_error"] = errors;
+  std::cout << pretty(out);
+}
+
+void print_table(const SlabRequest& request, const SlabResult& result) {
+  Table table;
+  table.add({"share of the light", "red", "green", "blue", "error"});
+  const auto row = [&](const std::string& name, const Estimate& e) {
+    table.add({name, value_text(e.mean[0]), value_text(e.mean[1]), value_text(e.mean[2]),
+               "\u00B1 " + value_text(largest(e.standard_error))});
+  };
+  row("reflected", result.reflectance);
+  row("transmitted, scattered", result.transmittance_diffuse);
+  row("transmitted, straight", {result.transmittance_direct, {}});
+  for (std::size_t m = 0; m < request.mu.size(); ++m) {
+    row("reflection R(mu = " + value_text(request.mu[m]) + ")", result.reflection[m]);
+    row("transmission T(mu = " + value_text(request.mu[m]) + ")", result.transmission[m]);
+  }
+  std::cout << table.text();
+}
+
+void slab(const SlabOptions& options) {
+  SlabRequest request;
+  request.thickness = thickness_of(options.thickness);
+  for (const double mu : options.mu) {
+    if (!(mu > 0.0 && mu <= 1.0)) throw Fault("--mu", "the number " + value_text(mu), "cosines above 0, to 1");
+  }
+  request.medium = compile(read_medium_file(options.medium), options.medium);
+  request.mu = options.mu;
+  request.diffuse = options.illumination == "diffuse";
+  request.mu0 = options.mu0;
+  request.ground = options.ground;
+  request.paths = options.spp;
+  request.seed = options.seed;
+  request.threads = options.threads;
+  if (const std::string objection = slab_objection(request); !objection.empty()) {
+    throw Fault("slab", "a layer whose light cannot be computed", objection);
+  }
+  const SlabResult result = solve_slab(request);
+  options.json ? print_json(request, result) : print_table(request, result);
+}
+
+}  // namespace
+
+void add_slab(CLI::App& app) {
+  auto options = std::make_shared<SlabOptions>();
+  CLI::App* command = app.add_subcommand("slab", "Print how much light a layer of a medium reflects and lets through");
+  command->add_option("MEDIUM", options->medium, "A medium file")->required();
+  command->add_option("--thickness", options->thickness, "Thickness of the layer in metres, or inf")->required();
+  command->add_option("--mu0", options->mu0, "Cosine of the beam to the vertical: 1 (default) is straight down")
+      ->check(CLI::Range(1e-6, 1.0));
+  command->add_option("--mu", options->mu, "Cosines at which to print the radiance that leaves")
+      ->delimiter(',')
+      ->check(CLI::Range(1e-6, 1.0));
+  command->add_option("--ground", options->ground, "Albedo of the floor below; 0 (default) is black")
+      ->check(CLI::Range(0.0, 1.0));
+  command
+      ->add_option("--illumination", options->illumination, "beam (default), or diffuse: the same from the whole sky")
+      ->check(CLI::IsMember({"beam", "diffuse"}));
+  command
+      ->add_option("--spp", options->spp, "Light paths to trace (default 1000000); four times as many halve the error")
+      ->check(CLI::Range(1u, 4000000000u));
+  command->add_option("--seed", options->seed, "Another number gives other random paths (default 1)");
+  command->add_option("--threads", options->threads, "Processor threads (default: all); the result is the same")
+      ->check(CLI::Range(1, 1024));
+  command->add_flag("--json", options->json, "Print one JSON object");
+  command->footer(
+      "A beam enters the top of a flat layer, black outside; all orders of scattering. Numbers are shares of the "
+      "light\n"
+      "on the layer; R(mu) and T(mu) are exit radiances, I = R mu0 E / pi for a beam of irradiance E.\n\n"
+      "Example: tyndall slab examples/media/harbour_fog.medium.json --thickness 100 --mu0 0.3");
+  command->callback([options] { slab(*options); });
+}
+
+}  // namespace tyndall

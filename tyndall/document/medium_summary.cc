@@ -1,0 +1,46 @@
+#include "tyndall/document/medium_summary.h"
+
+namespace tyndall {
+
+MediumSummary summary_of(const Medium& medium, const Vector& point) {
+  MediumSummary out;
+  const Spectrum scattering = scattering_at(medium, point), absorption = absorption_at(medium, point);
+  const Spectrum extinction = scattering + absorption;
+  out.scattering = scattering.value;
+  out.absorption = absorption.value;
+  out.extinction = extinction.value;
+  out.albedo = (scattering / extinction).value;
+  out.mean_free_path = (Spectrum::grey(1.0) / extinction).value;
+  out.visibility_5 = map(extinction, [](double x) { return visibility_of(x, 0.05); }).value;
+  out.visibility_2 = map(extinction, [](double x) { return visibility_of(x, 0.02); }).value;
+  out.mean_cosine = mean_cosine_at(medium, point).value;
+  for (const Species& s : medium.species) {
+    const double here = factor(s, point);
+    SpeciesSummary summary;
+    summary.name = s.name;
+    summary.law = std::visit([](const auto& law) { return std::string(law.name); }, s.phase);
+    summary.scattering = (s.scattering * here).value;
+    summary.absorption = (s.absorption * here).value;
+    summary.extinction = (s.extinction() * here).value;
+    summary.mean_cosine = mean_cosine(s.phase);
+    summary.phase = s.phase;
+    summary.profiles = s.profiles;
+    out.species.push_back(std::move(summary));
+  }
+  return out;
+}
+
+std::array<LobeSum<double>, channel_count> mixture_at(const Medium& medium, const Vector& point) {
+  const Spectrum total = scattering_at(medium, point);
+  std::array<LobeSum<double>, channel_count> out;
+  for (const Species& s : medium.species) {
+    const Spectrum scattering = s.scattering * factor(s, point);
+    for (std::size_t c = 0; c < channel_count; ++c) {
+      if (!(scattering[c] > 0.0)) continue;
+      for (const auto& part : lower(s.phase)) out[c].push_back({scattering[c] / total[c] * part.weight, part.lobe});
+    }
+  }
+  return out;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,176 @@
+// What a number must do, for Dual and Symbol against double; the elementary texts that shaders get.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "tyndall/number/dual.h"
+#include "tyndall/number/elementary.h"
+#include "tyndall/number/field.h"
+#include "tyndall/number/symbol_value.h"
+
+namespace tyndall {
+namespace {
+
+// One text that uses every operation; smooth at the tested points.
+template <class T>
+std::vector<T> every_operation(const T& a, const T& b) {
+  std::vector<T> out{a + b,
+                     a - b,
+                     a * b,
+                     a / b,
+                     -a,
+                     sqrt(a),
+                     cbrt(a),
+                     exp(a),
+                     expm1(a),
+                     log(b),
+                     sin(a),
+                     cos(b),
+                     sinh(a),
+                     asinh(b),
+                     abs(a - b),
+                     abs(b - a),
+                     min(a, b),
+                     max(a, b),
+                     min(b, a),
+                     max(b, a),
+                     fma(a, b, a),
+                     select(a < b, a * a, b),
+                     select(a > b, a * a, b),
+                     select(a <= b, a, b * b),
+                     select(a >= b, a, b * b),
+                     with_sign_of(a, -b),
+                     with_sign_of(a, b),
+                     pi<T>() * a,
+                     inverse_four_pi<T>() + b,
+                     named("product", a * b) + 1.0};
+  T sum = a;
+  sum += b;
+  sum *= a;
+  sum -= b;
+  out.push_back(sum);
+  const auto newton = [&](const std::array<T, 2>& state) -> std::array<T, 2> {
+    return {T(0.5) * (state[0] + a / state[0]), state[1] + b * state[0]};
+  };
+  for (const T& x : iterate(5, std::array<T, 2>{b, a}, newton)) out.push_back(x);
+  return out;
+}
+
+TEST(Dual, CarriesTheDerivativeThroughEveryOperation) {
+  using D = Dual<double, 2>;
+  for (const double a : {0.3, 1.7}) {
+    for (const double b : {0.8, 2.5}) {
+      const std::vector<D> found = every_operation(D::parameter(a, 0), D::parameter(b, 1));
+      const std::vector<double> at = every_operation(a, b);
+      const double h = 1e-5;
+      for (std::size_t i = 0; i < at.size(); ++i) {
+        EXPECT_DOUBLE_EQ(found[i].value, at[i]) << i;
+        const double by_a = (every_operation(a + h, b)[i] - every_operation(a - h, b)[i]) / (2.0 * h);
+        const double by_b = (every_operation(a, b + h)[i] - every_operation(a, b - h)[i]) / (2.0 * h);
+        EXPECT_NEAR(found[i].derivative[0], by_a, 1e-8 * (1.0 + std::fabs(by_a))) << i;
+        EXPECT_NEAR(found[i].derivative[1], by_b, 1e-8 * (1.0 + std::fabs(by_b))) << i;
+      }
+    }
+  }
+}
+
+TEST(Dual, AConstantHasNoDerivative) {
+  const Dual<float, 3> constant(2.5);
+  EXPECT_EQ(constant.value, 2.5F);
+  EXPECT_EQ(constant.derivative, (std::array<float, 3>{}));
+}
+
+TEST(Symbol, RemembersEveryOperation) {
+  const std::vector<Symbol> recorded = every_operation(Symbol::input("a"), Symbol::input("b"));
+  for (const double a : {0.3, 1.7}) {
+    for (const double b : {0.8, 2.5}) {
+      const SymbolValue value({{"a", a}, {"b", b}});
+      const std::vector<double> expected = every_operation(a, b);
+      for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_DOUBLE_EQ(value(recorded[i]), expected[i]) << i;
+    }
+  }
+}
+
+TEST(Symbol, CopiesShareTheirNodes) {
+  const Symbol x = Symbol::input("x");
+  const Symbol y = exp(x);
+  const Symbol copy = y;
+  EXPECT_EQ(&copy.node(), &y.node());
+  EXPECT_EQ(&y.node().operands[0].node(), &x.node());
+}
+
+TEST(Symbol, RunsALoopsBodyOnceHoweverOftenItTurns) {
+  int runs = 0;
+  const auto body = [&](const std::array<Symbol, 1>& state) -> std::array<Symbol, 1> {
+    ++runs;
+    return {state[0] * 2.0};
+  };
+  const std::array<Symbol, 1> doubled = iterate(10, std::array<Symbol, 1>{Symbol::input("x")}, body);
+  EXPECT_EQ(runs, 1);
+  EXPECT_EQ(SymbolValue({{"x", 3.0}})(doubled[0]), 3072.0);
+}
+
+TEST(Symbol, MembersOfATripleAreInputsOfTheirOwn) {
+  const Symbol sum = Symbol::input("d", 0) + 10.0 * Symbol::input("d", 2);
+  EXPECT_EQ(SymbolValue({{"d.0", 1.0}, {"d.2", 2.0}})(sum), 21.0);
+  EXPECT_TRUE(std::isnan(SymbolValue({{"d.0", 1.0}})(sum)));
+}
+
+// The promise of elementary.h, in float. (Shaders are compared in export/law_functions_test.cc.)
+TEST(Elementary, KeepsItsDigitsInFloat) {
+  const auto check = [](const char* name, float x, float found, double exact) {
+    EXPECT_NEAR(static_cast<double>(found), exact, 3e-7 * std::fabs(exact)) << name << " at " << x;
+  };
+  for (double size = 1e-18; size < 80.0; size *= 1.013) {
+    for (const double sign : {1.0, -1.0}) {
+      const float x = static_cast<float>(sign * size);
+      const double exact = static_cast<double>(x);
+      check("expm1", x, expm1_from_exp(x), std::expm1(exact));
+      check("sinh", x, sinh_from_exp(x), std::sinh(exact));
+      check("asinh", x, asinh_from_log(x), std::asinh(exact));
+      check("cbrt", x, cbrt_from_exp(x), std::cbrt(exact));
+    }
+  }
+  EXPECT_EQ(expm1_from_exp(0.0F), 0.0F);
+  EXPECT_EQ(sinh_from_exp(0.0F), 0.0F);
+  EXPECT_EQ(asinh_from_log(0.0F), 0.0F);
+  EXPECT_EQ(cbrt_from_exp(0.0F), 0.0F);
+}
+
+TEST(Range, AnOpenEndIsOutside) {
+  const Range open{-1.0, 1.0, true, true};
+  EXPECT_FALSE(open.contains(-1.0));
+  EXPECT_FALSE(open.contains(1.0));
+  EXPECT_TRUE(open.contains(0.999999));
+  EXPECT_TRUE(unit_interval.contains(0.0));
+  EXPECT_TRUE(unit_interval.contains(1.0));
+  EXPECT_FALSE(unit_interval.contains(std::nextafter(1.0, 2.0)));
+  EXPECT_FALSE(positive.contains(0.0));
+  EXPECT_TRUE(not_negative.contains(0.0));
+  EXPECT_FALSE(any_number.contains(std::nan("")));
+}
+
+struct Described {
+  double first{1.0};
+  std::string second;
+  static constexpr auto fields() {
+    return std::tuple{Field{"first", &Described::first, positive, "m", "A length.", Scaling::length},
+                      Field{"second", &Described::second}};
+  }
+};
+
+TEST(Field, ListsWhatAStructHoldsInOrder) {
+  std::vector<std::string> names;
+  for_each_field<Described>([&](const auto& field) { names.emplace_back(field.name); });
+  EXPECT_EQ(names, (std::vector<std::string>{"first", "second"}));
+  constexpr auto first = std::get<0>(Described::fields());
+  static_assert(first.scaling == Scaling::length && first.unit == "m" && first.range.low == 0.0);
+  Described owner;
+  owner.*(first.member) = 5.0;
+  EXPECT_EQ(owner.first, 5.0);
+}
+
+}  // namespace
+}  // namespace tyndall

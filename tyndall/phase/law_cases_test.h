@@ -1,0 +1,145 @@
+#pragma once
+// Every law with its hard parameters, made from the list of laws and their field descriptions: a new law is tested
+// without a line here.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "tyndall/phase/law.h"
+
+namespace tyndall {
+
+/// Values of a parameter that have broken somebody's code: both ends of the range or next to them, almost 0, ordinary
+/// ones. All are floats, so that float tests and double references speak of the same law.
+inline std::vector<double> hard_values(const Range& range) {
+  std::vector<double> values;
+  const auto add = [&](double x) {
+    const double rounded = static_cast<double>(static_cast<float>(x));
+    if (range.contains(rounded) && std::find(values.begin(), values.end(), rounded) == values.end())
+      values.push_back(rounded);
+  };
+  if (std::isfinite(range.low) && std::isfinite(range.high)) {
+    add(range.low);
+    for (const double part : {5e-5, 0.005, 0.15, 0.25, 0.5, 0.6, 0.75, 0.85, 0.995, 0.99995})
+      add(range.low + part * (range.high - range.low));
+    add(range.high);
+  } else {
+    for (const double x : {1e-3, 0.5, 1.0, 30.0, 1e3}) add(x);
+  }
+  for (const double x : {1e-6, -1e-6}) add(x);
+  return values;
+}
+
+/// A law of numeric parameters: its default, and each hard value of each parameter in turn.
+template <template <class> class L>
+std::vector<L<double>> cases_of(std::type_identity<L<double>>) {
+  std::vector<L<double>> cases{L<double>{}};
+  for_each_field<L<double>>([&](const auto& field) {
+    for (const double x : hard_values(field.range)) {
+      L<double> law;
+      law.*(field.member) = x;
+      cases.push_back(law);
+    }
+  });
+  return cases;
+}
+
+/// Mixtures of two to four: alike and far apart lobes, peaks both ways over a faint background, each law with
+/// Henyey-Greenstein, mixtures of mixtures, a part of no weight.
+inline std::vector<Mixture<double>> cases_of(std::type_identity<Mixture<double>>) {
+  const auto share = [](double weight) { return static_cast<double>(static_cast<float>(weight)); };
+  const auto lobe = [&](double weight, double g) {
+    return MixturePart<double>{share(weight), HenyeyGreenstein<double>{share(g)}};
+  };
+  std::vector<Mixture<double>> cases{
+      {{lobe(1.0, 0.5)}},
+      {{lobe(1.0, 0.3), lobe(2.0, 0.31)}},
+      {{lobe(1.0, 0.8), lobe(0.25, -0.4)}},
+      {{lobe(1.0, 0.99), lobe(1.0, -0.99)}},
+      {{lobe(0.3, 0.9999), lobe(0.2, -0.9999), {share(1e-3), Isotropic<double>{}}}},
+      {{lobe(0.0, 0.9999), lobe(1.0, 1e-6)}},
+      {{lobe(1.0, 0.95), lobe(1.0, 0.5), lobe(1.0, -0.2), lobe(1.0, 0.9999)}},
+  };
+  const auto beside = [&]<class L>(std::type_identity<L>) {
+    if constexpr (!std::is_same_v<L, Mixture<double>>) cases.push_back({{{1.0, L{}}, lobe(0.5, 0.7)}});
+  };
+  [&]<class... Each>(std::type_identity<std::variant<Each...>>) {
+    (beside(std::type_identity<Each>{}), ...);
+  }(std::type_identity<Law<double>>{});
+  const Mixture<double> haze{{{share(0.7), MieHazy<double>{}}, {share(0.3), MieMurky<double>{}}}};
+  cases.push_back(haze);
+  cases.push_back({{{2.0, haze}, lobe(1.0, 0.9), {share(0.1), Rayleigh<double>{share(0.03)}}}});
+  cases.push_back({{{1.0, cases[3]}, {1.0, haze}, {1.0, Mixture<double>{{{1.0, haze}, lobe(1.0, -0.7)}}}}});
+  return cases;
+}
+
+template <class L>
+std::vector<Law<double>> law_cases() {
+  const auto cases = cases_of(std::type_identity<L>{});
+  return {cases.begin(), cases.end()};
+}
+
+/// The law and its parameters in words, for messages.
+inline std::string words(const Law<double>& law) {
+  return std::visit(
+      [](const auto& l) {
+        std::string out(l.name);
+        for_each_field<std::decay_t<decltype(l)>>([&](const auto& field) {
+          if constexpr (requires { std::to_string(l.*(field.member)); }) {
+            char text[40];
+            std::snprintf(text, sizeof text, ":%s=%.7g", std::string(field.name).c_str(), l.*(field.member));
+            out += text;
+          } else {
+            for (const auto& part : l.*(field.member))
+              out += (out.back() == ' ' || out == l.name ? " " : " + ") + std::to_string(part.weight) + " " +
+                     words(part.phase);
+          }
+        });
+        return out;
+      },
+      law);
+}
+
+/// Deflections from straight on to straight back, the peaks resolved.
+inline std::vector<Deflection<double>> test_deflections() {
+  std::vector<Deflection<double>> out{Deflection<double>::from_ends(0.0, 2.0), Deflection<double>::from_ends(2.0, 0.0)};
+  const double half_turn = std::acos(-1.0);
+  for (const double small : {1e-4, 3e-4, 1e-3, 0.01, 0.03}) {
+    out.push_back(Deflection<double>::from_angle(small));
+    const auto forward = Deflection<double>::from_angle(small);
+    out.push_back(Deflection<double>::from_ends(forward.one_plus, forward.one_minus));
+  }
+  for (int i = 1; i < 40; ++i) out.push_back(Deflection<double>::from_angle(half_turn * i / 40.0));
+  return out;
+}
+
+/// Numbers of [0, 1], all of them floats: both ends, next to them, between.
+inline std::vector<double> test_xi() {
+  std::vector<double> out{0.0, 1e-9, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1.0};
+  for (int i = 1; i < 64; ++i) out.push_back(i / 64.0);
+  for (const double y : {0x1p-24, 0x1p-20, 0x1p-17, 0x1p-13, 0x1p-10}) out.push_back(1.0 - y);
+  for (double& xi : out) xi = static_cast<double>(static_cast<float>(xi));
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+/// The alternatives of a variant as another list of types: ListOf<Law<double>, ::testing::Types>::Type.
+template <class Variant, template <class...> class List>
+struct ListOf;
+template <class... L, template <class...> class List>
+struct ListOf<std::variant<L...>, List> {
+  using Type = List<L...>;
+};
+
+/// Names for test suites over the laws.
+struct LawNames {
+  template <class L>
+  static std::string GetName(int) {
+    return std::string(L::name);
+  }
+};
+
+}  // namespace tyndall

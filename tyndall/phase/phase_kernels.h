@@ -1,0 +1,42 @@
+#pragma once
+// Laws over arrays, as many at a time as the processor has lanes: one kernel per instruction set, chosen at run time.
+#include <span>
+#include <vector>
+
+#include "tyndall/number/instruction_set.h"
+#include "tyndall/phase/lobe_sum.h"
+#include "tyndall/phase/phase_kernel.h"
+
+namespace tyndall {
+
+/// Deflections as three arrays of equal length.
+struct DeflectionArrays {
+  std::span<const float> mu, one_minus, one_plus;
+};
+struct DeflectionResults {
+  std::span<float> mu, one_minus, one_plus;
+};
+
+/// A sum of lobes ready for the kernels. Float results are those of the same text in float, to a few roundings; they
+/// differ between instruction sets in the last digits.
+class PhaseArrays {
+ public:
+  /// `lobes` is not empty. `set` must be one that this machine can run (best_instruction_set() and below).
+  explicit PhaseArrays(const LobeSum<float>& lobes, InstructionSet set = best_instruction_set());
+
+  /// Phase function at each deflection [1/sr]; all arrays of equal length.
+  void density(const DeflectionArrays& at, std::span<float> out) const;
+  /// Probability that mu is at most that of each deflection.
+  void cdf(const DeflectionArrays& at, std::span<float> out) const;
+  /// The deflection of each xi in [0, 1].
+  void sample(std::span<const float> xi, const DeflectionResults& out) const;
+
+ private:
+  std::vector<LobeRecord> lobes_;
+  PhaseKernelFunction run_;
+};
+
+/// The sum as plain numbers.
+std::vector<LobeRecord> lobe_records(const LobeSum<float>& lobes);
+
+}  // namespace tyndall

@@ -1,0 +1,187 @@
+#pragma once
+// The light that lamps throw into one segment of a path, and where along it to sample that light.
+#include <vector>
+
+#include "tyndall/light/spot_cone.h"
+#include "tyndall/medium/free_flight.h"
+#include "tyndall/render/distance_table.h"
+#include "tyndall/render/path_lights.h"
+
+namespace tyndall {
+
+/// A segment of a path in a medium, seen in one grey channel: enough to decide where to look, never what is seen.
+/// Reused from segment to segment.
+class LampSegment {
+ public:
+  struct Sample {
+    std::size_t lamp;
+    double t, density;  // density [1/m] of the distance times the chance of the lamp
+  };
+
+  /// Prepares [0, end] of the ray for a path of throughput beta.
+  void set(const LoweredMedium& medium, const std::vector<Stretch>& stretches, const Ray& ray, double end,
+           const Spectrum& beta) {
+    ray_ = ray;
+    end_ = end;
+    beta_ = beta / sum(beta);
+    parts_.clear();
+    lobes_.clear();
+    for (const Stretch& s : stretches) {
+      const double scattering = sum(beta_ * s.species->scattering), extinction = sum(beta_ * s.species->extinction);
+      // Neighbours that come and go together (the species of one homogeneous medium) are one part.
+      const bool joined = !parts_.empty() && s.rate == 0.0 && parts_.back().stretch.rate == 0.0 &&
+                          parts_.back().stretch.range.begin == s.range.begin &&
+                          parts_.back().stretch.range.end == s.range.end;
+      if (!joined) parts_.push_back({s, 0.0, 0.0, lobes_.size(), lobes_.size()});
+      Part& part = parts_.back();
+      const double factor = joined ? s.factor / part.stretch.factor : 1.0;
+      part.extinction += extinction * factor;
+      for (std::size_t i = 0; i < s.species->lobe_count; ++i) {
+        const WeightedLobe<double>& lobe = medium.lobes[s.species->first_lobe + i];
+        const double weight = lobe.weight * scattering * factor;
+        if (weight == 0.0) continue;
+        if (std::holds_alternative<IsotropicLobe<double>>(lobe.lobe)) {
+          part.isotropic += weight * inverse_four_pi<double>();
+        } else {
+          lobes_.push_back({&lobe.lobe, weight});
+        }
+      }
+      part.last_lobe = lobes_.size();
+    }
+  }
+
+  /// Chooses among all lamps and samples a distance. The promise of each lamp is tabulated when `careful`, else guessed
+  /// from one point.
+  Sample sample(const std::vector<Lamp>& lamps, bool careful, double xi_lamp, double xi_choice, double xi) {
+    candidates_.clear();
+    tables_.clear();
+    double promise = 0.0;
+    for (std::size_t i = 0; i < lamps.size(); ++i) {
+      const Approach at = approach(lamps[i]);
+      if (at.range.empty()) continue;
+      double worth;
+      if (careful) {
+        tables_.push_back(table(lamps[i], at));
+        worth = tables_.back().integral();
+      } else {
+        worth = guess(lamps[i], at);
+      }
+      candidates_.push_back({i, at, worth});
+      promise += worth;
+    }
+    if (candidates_.empty()) return {0, 0.0, 0.0};
+    // A twentieth of the choices is even: lamps that seemed to promise nothing keep a chance.
+    const double even = (promise > 0.0 ? 0.05 : 1.0) / static_cast<double>(candidates_.size());
+    const auto chance = [&](std::size_t k) {
+      return even + (promise > 0.0 ? 0.95 * candidates_[k].worth / promise : 0.0);
+    };
+    std::size_t k = 0;
+    while (k + 1 < candidates_.size() && xi_lamp >= chance(k)) xi_lamp -= chance(k++);
+    const Candidate& chosen = candidates_[k];
+    const DistanceTable::Sample at =
+        careful ? tables_[k].sample(xi_choice, xi) : table(lamps[chosen.lamp], chosen.at).sample(xi_choice, xi);
+    return {chosen.lamp, at.t, at.density * chance(k)};
+  }
+
+  /// Samples a distance for one lamp; density 0 where it throws no light on the segment.
+  Sample sample(const std::vector<Lamp>& lamps, std::size_t lamp, double xi_choice, double xi) {
+    const Approach at = approach(lamps[lamp]);
+    if (at.range.empty()) return {lamp, 0.0, 0.0};
+    const DistanceTable::Sample sample = table(lamps[lamp], at).sample(xi_choice, xi);
+    return {lamp, sample.t, sample.density};
+  }
+
+ private:
+  struct Part {
+    Stretch stretch;
+    double extinction, isotropic;  // at unit factor; isotropic includes 1/(4 pi)
+    std::size_t first_lobe, last_lobe;
+  };
+  struct GreyLobe {
+    const Lobe<double>* lobe;
+    double weight;
+  };
+  /// How the ray passes a lamp: abscissa and distance of the closest approach, and where its light falls.
+  struct Approach {
+    double a, h;
+    Interval range;
+    double cut;  // beyond it, too little light is left to tabulate
+  };
+  struct Candidate {
+    std::size_t lamp;
+    Approach at;
+    double worth;
+  };
+
+  Approach approach(const Lamp& lamp) const {
+    const Vector to_lamp = lamp.position - ray_.origin;
+    const double a = dot(to_lamp, ray_.direction);
+    Interval range{0.0, end_};
+    if (lamp.spot != nullptr) range = lit_interval(*lamp.spot, ray_, range);
+    return {a, length(to_lamp - ray_.direction * a), range, range.empty() ? 0.0 : dim_after(std::clamp(a, 0.0, end_))};
+  }
+
+  DistanceTable table(const Lamp& lamp, const Approach& at) const {
+    return DistanceTable(at.range, at.a, at.h, at.cut, [&](double t) { return promised(lamp, at, t); });
+  }
+
+  /// Integrand in the middle of the angle under which the lamp sees the segment, times that angle.
+  double guess(const Lamp& lamp, const Approach& at) const {
+    const double h = std::max(at.h, 1e-6 * (1.0 + std::fabs(at.a)));
+    const double begin = at.range.begin - at.a, end = std::min(at.range.end, at.cut) - at.a;
+    if (!(end > begin)) return 0.0;
+    // Unit vectors from the lamp to both ends; their sum halves the angle.
+    const double r0 = 1.0 / std::sqrt(begin * begin + h * h),
+                 r1 = std::isfinite(end) ? 1.0 / std::sqrt(end * end + h * h) : 0.0;
+    const double sine1 = std::isfinite(end) ? end * r1 : 1.0;
+    const double angle = std::atan2(h * (r0 * sine1 - begin * r0 * r1), h * h * r0 * r1 + begin * r0 * sine1);
+    const double middle = at.a + h * (begin * r0 + sine1) / (h * (r0 + r1));
+    return promised(lamp, at, std::max(middle, at.range.begin)) * angle / h;
+  }
+
+  /// Light scattered back along the segment at t, times r^2. The lamp's own path is taken to see the extinction at t
+  /// all along.
+  double promised(const Lamp& lamp, const Approach& at, double t) const {
+    const double along = at.a - t, r = std::sqrt(along * along + at.h * at.h);
+    if (r == 0.0) return 0.0;
+    double power = sum(beta_ * lamp.intensity);
+    if (lamp.spot != nullptr) power = sum(beta_ * lamp.intensity_toward((ray_.at(t) - lamp.position) / r));
+    if (power == 0.0) return 0.0;
+    const double mu = along / r, far = at.h * at.h / (r * (r + std::fabs(along)));  // 1 - |mu| without cancellation
+    const Deflection<double> d{mu, along > 0.0 ? far : 1.0 - mu, along > 0.0 ? 1.0 + mu : far};
+    double depth = 0.0, extinction = 0.0, scattered = 0.0;
+    for (const Part& part : parts_) {
+      depth += part.extinction * part.stretch.depth_to(t);
+      if (t < part.stretch.range.begin || t >= part.stretch.range.end) continue;
+      const double factor = part.stretch.factor_at(t);
+      extinction += part.extinction * factor;
+      double density = part.isotropic;
+      for (std::size_t i = part.first_lobe; i < part.last_lobe; ++i) {
+        density += lobes_[i].weight * std::visit([&](const auto& lobe) { return lobe.density(d); }, *lobes_[i].lobe);
+      }
+      scattered += factor * density;
+    }
+    return power * scattered * std::exp(-(depth + extinction * r));
+  }
+
+  /// Where the light has paid an optical depth of 14 more than at t, the closest approach: up to there what the segment
+  /// gains in depth the lamp's own path loses; beyond, both grow. No part alone gets there before.
+  double dim_after(double t) const {
+    double dim = end_;
+    for (const Part& part : parts_) {
+      if (part.extinction > 0.0)
+        dim = std::min(dim, part.stretch.distance_at(part.stretch.depth_to(t) + 14.0 / part.extinction));
+    }
+    return dim;
+  }
+
+  Ray ray_;
+  double end_ = 0.0;
+  Spectrum beta_;
+  std::vector<Part> parts_;
+  std::vector<GreyLobe> lobes_;
+  std::vector<Candidate> candidates_;
+  std::vector<DistanceTable> tables_;
+};
+
+}  // namespace tyndall

@@ -1,0 +1,228 @@
+// The path tracer against closed forms, published truth and the deterministic integrator. Every comparison states how
+// many standard errors it allows; seeds are fixed.
+#include "tyndall/render/path.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/shared_folder.h"
+#include "tyndall/render/render.h"
+#include "tyndall/render/single.h"
+#include "tyndall/render/test_scenes.h"
+
+namespace tyndall {
+namespace {
+
+using nlohmann::json;
+using tests::add_material;
+using tests::add_quad;
+using tests::medium_of;
+
+double number(const json& x) { return x.is_string() ? std::stod(x.get<std::string>()) : x.get<double>(); }
+
+json category(const std::filesystem::path& truth, const char* name) {
+  std::ifstream in(truth);
+  return json::parse(in).at(name).at("items");
+}
+
+void expect_within(double sigmas, const ProbeEstimate& e, const Spectrum& truth, const std::string& what) {
+  for (std::size_t c = 0; c < channel_count; ++c) {
+    EXPECT_LT(std::fabs(e.radiance[c] - truth[c]), sigmas * e.standard_error[c] + 1e-9 * truth[c])
+        << what << " channel " << c << ": " << e.radiance[c] << " +- " << e.standard_error[c] << ", truth " << truth[c];
+  }
+}
+
+TEST(PathTruth, FluenceOfAPointSourceInInfiniteMedium) {
+  TYNDALL_NEEDS_SHARED_FILE(truth, "acceptance/public.json");
+  for (const json& item : category(truth, "point_source_fluence")) {
+    const double albedo = number(item["albedo"]), r = number(item["r"]);
+    Scene scene;
+    scene.medium = medium_of(Spectrum::grey(albedo), Spectrum::grey(1.0 - albedo), Isotropic<double>{});
+    scene.points.push_back({{0, 0, 0}, Spectrum::grey(1.0 / (4.0 * std::numbers::pi))});
+    const Geometry geometry(scene);
+    const PathContext context(scene, geometry);
+    const ProbeEstimate e = path_fluence(context, {r, 0, 0}, 100000, 11);
+    expect_within(4.0, e, Spectrum::grey(number(item["fluence"])),
+                  "albedo " + item["albedo"].dump() + " r " + item["r"].dump());
+    EXPECT_LT(e.standard_error[0], 0.06 * e.radiance[0]);
+  }
+}
+
+TEST(PathTruth, AirlightOfPointAndSpotLights) {
+  TYNDALL_NEEDS_SHARED_FILE(truth, "acceptance/public.json");
+  const std::vector<std::pair<std::string, Law<double>>> laws = {{"isotropic", Isotropic<double>{}},
+                                                                 {"rayleigh", Rayleigh<double>{}},
+                                                                 {"hg0.7", HenyeyGreenstein<double>{0.7}},
+                                                                 {"hazy", MieHazy<double>{}},
+                                                                 {"murky", MieMurky<double>{}}};
+  for (const char* kind : {"airlight_point", "airlight_spot"}) {
+    for (const json& item : category(truth, kind)) {
+      for (const auto& [name, law] : laws) {
+        if (!item.contains(name)) continue;
+        Scene scene;
+        scene.medium = medium_of(Spectrum::grey(item["sigma_t"]), {}, law);
+        if (item.contains("spot_pos")) {
+          const auto& p = item["spot_pos"];
+          const auto& d = item["spot_dir_unnormalised"];
+          scene.spots.push_back({{p[0], p[1], p[2]},
+                                 {d[0], d[1], d[2]},
+                                 Spectrum::grey(1.0),
+                                 item["half_angle_deg"],
+                                 item["half_angle_deg"]});
+        } else {
+          scene.points.push_back({{item["a"], item["h"], 0}, Spectrum::grey(1.0)});
+        }
+        const Geometry geometry(scene);
+        const PathContext context(scene, geometry, 1);
+        const ProbeEstimate e = path_probe(context, {{0, 0, 0}, {1, 0, 0}}, item["d"], 40000, 5);
+        expect_within(4.0, e, Spectrum::grey(number(item[name])),
+                      std::string(kind) + " " + item["id"].dump() + " " + name);
+        EXPECT_LT(e.standard_error[0], 0.01 * e.radiance[0]) << kind << " " << name;
+      }
+    }
+  }
+}
+
+/// Nothing absorbs, everything shines 1: whatever is seen is 1, in every channel, through any mixture of media.
+TEST(Path, AWhiteFurnaceStaysWhite) {
+  Scene scene;
+  scene.medium = medium_of({{0.3, 0.7, 1.7}}, {}, Rayleigh<double>{}, {SphereProfile{{0, 0, 0}, 2.0}});
+  const Medium cloud = medium_of(Spectrum::grey(3.0), {}, HenyeyGreenstein<double>{0.85},
+                                 {BoxProfile{{-1, -1, -1}, {1, 1, 1}}, ExponentialProfile{1.0, 0.0}});
+  scene.medium.species.push_back(cloud.species[0]);
+  scene.environment = EnvironmentLight{};
+  scene.environment->radiance = Spectrum::grey(1.0);
+  const Geometry geometry(scene);
+  const PathContext context(scene, geometry);
+  for (const double x : {0.0, 0.7, 1.3}) {
+    expect_within(4.0, path_probe(context, {{x, 0.2, -5}, {0, 0, 1}}, infinity, 40000, 3), Spectrum::grey(1.0),
+                  "furnace");
+  }
+}
+
+/// Surfaces in a furnace may lose (one bounce between facets is all a rough metal gets: 1 - ln 2 at roughness 1), but
+/// never make energy.
+TEST(Path, SurfacesNeverMakeEnergy) {
+  for (const double metallic : {0.0, 0.5, 1.0}) {
+    for (const double roughness : {0.0, 0.2, 0.5, 1.0}) {
+      Scene scene;
+      add_quad(scene, {-50, 0, 50}, {100, 0, 0}, {0, 0, -100},
+               add_material(scene, Spectrum::grey(1.0), {}, roughness, metallic));
+      scene.environment = EnvironmentLight{};
+      scene.environment->radiance = Spectrum::grey(1.0);
+      const Geometry geometry(scene);
+      const PathContext context(scene, geometry);
+      for (const double x : {0.0, 3.0, 8.0}) {
+        const Vector origin{x, 1.0, 0.0};
+        const ProbeEstimate e = path_probe(context, {origin, normalized(-origin)}, infinity, 20000, 3);
+        EXPECT_LT(e.radiance[0], 1.0 + 4.0 * e.standard_error[0] + 1e-9) << metallic << " " << roughness << " " << x;
+        EXPECT_GT(e.radiance[0], 0.25) << metallic << " " << roughness << " " << x;
+      }
+    }
+  }
+}
+
+/// One event at most is what `single` integrates without random numbers: both must agree, light by light, at every kind
+/// of edge.
+TEST(Path, LimitedToOneEventAgreesWithSingle) {
+  const Scene busy = tests::busy_scene();
+  for (const char* light : {"point", "spot", "sun", "sky", "panel"}) {
+    Scene scene = busy;
+    const std::string kind = light;
+    if (kind != "point") scene.points.clear();
+    if (kind != "spot") scene.spots.clear();
+    if (kind != "sun") scene.suns.clear();
+    if (kind != "sky") scene.environment.reset();
+    if (kind != "panel") scene.materials[2].emission = {};
+    const Geometry geometry(scene);
+    const PathContext context(scene, geometry, 1);
+    const SingleContext single(scene, geometry);
+    // Lamps and sun are exact; the fixed quadratures of sky and panel are measured: 1 % is what they are allowed.
+    const double allowed = kind == "sky" || kind == "panel" ? 0.01 : kind == "sun" ? 0.002 : 1e-6;
+    for (const Vector& to : {Vector{0, 1.2, 0}, Vector{1.5, 2.0, -1}, Vector{-2, 0, -1}, Vector{0.5, 4.9, -5}}) {
+      const Ray ray{scene.camera.position, normalized(to - scene.camera.position)};
+      const ProbeEstimate e = path_probe(context, ray, infinity, 100000, 17);
+      const PixelLayers exact = single_radiance(single, ray);
+      const Spectrum truth = exact.surface + exact.single;
+      for (std::size_t c = 0; c < channel_count; ++c) {
+        EXPECT_LE(std::fabs(e.radiance[c] - truth[c]), 4.0 * e.standard_error[c] + allowed * truth[c])
+            << light << " toward " << to.x << ": " << e.radiance[c] << " +- " << e.standard_error[c] << ", single "
+            << truth[c];
+        EXPECT_NEAR(e.transmittance[c], exact.transmittance[c], 1e-12);
+      }
+    }
+  }
+}
+
+std::vector<Plane> planes_with(int threads, std::uint32_t tile_order, const Scene& scene, const char* integrator) {
+  const Geometry geometry(scene);
+  RenderSettings settings;
+  settings.integrator = integrator;
+  settings.spp = 4;
+  settings.threads = threads;
+  settings.tile_order = tile_order;
+  return render(scene, geometry, settings).planes;
+}
+
+TEST(Render, ThePictureDoesNotDependOnThreadsOrTileOrder) {
+  const Scene scene = tests::busy_scene();
+  for (const char* integrator : {"path", "single"}) {
+    const std::vector<Plane> one = planes_with(1, 0, scene, integrator);
+    ASSERT_EQ(one.size(), 19u);
+    for (const auto& [threads, order] : {std::pair{2, 0u}, {3, 0u}, {7, 0u}, {2, 42u}, {7, 7u}}) {
+      const std::vector<Plane> other = planes_with(threads, order, scene, integrator);
+      for (std::size_t i = 0; i < one.size(); ++i) {
+        EXPECT_EQ(0, std::memcmp(one[i].values.data(), other[i].values.data(), one[i].values.size() * sizeof(float)))
+            << integrator << " " << one[i].name << " with " << threads << " threads, order " << order;
+      }
+    }
+  }
+}
+
+TEST(Render, LayersAddUpToTheBeautyAndAreFiniteAndNotNegative) {
+  const Scene scene = tests::busy_scene();
+  const Geometry geometry(scene);
+  RenderSettings settings;
+  settings.spp = 8;
+  const Image image = render(scene, geometry, settings);
+  const auto plane = [&](const char* name) -> const std::vector<float>& { return find_plane(image, name)->values; };
+  double scattered = 0.0, all = 0.0;
+  for (std::size_t i = 0; i < image.pixel_count(); ++i) {
+    const float sum = plane("surface.G")[i] + plane("single.G")[i] + plane("multiple.G")[i];
+    EXPECT_NEAR(plane("G")[i], sum, 1e-6f * std::max(1.0f, sum));
+    EXPECT_GE(plane("G")[i], 0.0f);
+    EXPECT_TRUE(std::isfinite(plane("G")[i]) && std::isfinite(plane("variance.G")[i]));
+    EXPECT_GE(plane("transmittance.B")[i], 0.0f);
+    EXPECT_LE(plane("transmittance.B")[i], 1.0f);
+    EXPECT_GT(plane("depth.Z")[i], 0.0f);
+    scattered += plane("single.G")[i] + plane("multiple.G")[i];
+    all += plane("G")[i];
+  }
+  EXPECT_GT(scattered, 0.05 * all);
+}
+
+TEST(Render, StoppingLeavesWhatIsThere) {
+  const Scene scene = tests::busy_scene();
+  const Geometry geometry(scene);
+  RenderSettings settings;
+  settings.spp = 1 << 20;
+  settings.threads = 2;
+  std::atomic<bool> stop{false};
+  int reports = 0;
+  const Image image = render(
+      scene, geometry, settings,
+      [&](const RenderProgress& p) {
+        EXPECT_GE(p.fraction, 0.0);
+        if (++reports == 2) stop = true;
+      },
+      &stop);
+  EXPECT_EQ(image.notes.back().first, "tyndall.stopped");
+  double sum = 0.0;
+  for (const float x : find_plane(image, "G")->values) sum += x;
+  EXPECT_GT(sum, 0.0);
+}
+
+}  // namespace
+}  // namespace tyndall

@@ -1,0 +1,228 @@
+#include "tyndall/render/single_ray.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "tyndall/render/bsdf.h"
+#include "tyndall/scene/emitter.h"
+
+namespace tyndall {
+namespace {
+
+/// Fixed quadratures err by far more than this; panels along their many rays need not be finer.
+constexpr double coarse_tolerance = 1e-3;
+
+/// Point k of n spread evenly over the unit square (Fibonacci lattice with the golden ratio for any n).
+struct FibonacciPoint {
+  double x, y;
+};
+FibonacciPoint fibonacci(int k, int n) {
+  const double turns = k * 0.61803398874989484820;
+  return {(k + 0.5) / n, turns - std::floor(turns)};
+}
+
+Spectrum vanishing(const Spectrum& depth) {
+  return map(depth, [](double x) { return std::exp(-x); });
+}
+
+}  // namespace
+
+SingleContext::Prepared::Prepared(const Scene& scene_, const Geometry& geometry_, const SingleSettings& settings_)
+    : scene(scene_),
+      geometry(geometry_),
+      settings(settings_),
+      medium(scene.medium),
+      shadows(scene),
+      lamps(lamps_of(scene)),
+      glow(emissive_points(scene, settings.emissive_points)),
+      sky(scene.environment ? &*scene.environment : nullptr, settings.sky_suns),
+      suns(suns_of(scene, settings.sun_rings, settings.sun_azimuth)) {
+  suns.insert(suns.end(), sky.suns().begin(), sky.suns().end());
+}
+
+void SingleRay::set(const Ray& ray, double distance) {
+  ray_ = ray;
+  hit_ = context_.geometry.intersect(ray, distance);
+  end_ = hit_ ? hit_->t : distance;
+  cut_short_ = !hit_ && distance < infinity;
+  medium_.set(context_.medium, ray, end_);
+}
+
+/// Transmittance of the way between two points, 0 where a surface is in it.
+Spectrum SingleRay::open_way(const Vector& from, const Vector& to) {
+  if (context_.geometry.occluded(from, to)) return {};
+  return vanishing(depth_between(context_.medium.lowered, from, to, scratch_));
+}
+Spectrum SingleRay::open_way(const Ray& ray) {
+  if (context_.geometry.occluded(ray)) return {};
+  stretches_along(context_.medium.lowered, ray, infinity, scratch_);
+  return vanishing(optical_depth(scratch_, infinity));
+}
+
+Spectrum SingleRay::surface(bool sources) {
+  if (cut_short_) return {};
+  const Spectrum through = transmittance();
+  if (is_zero(through)) return {};
+  Spectrum seen;
+  if (hit_) {
+    seen = reflected(*hit_, -ray_.direction);
+    if (sources) seen += emitted(*hit_->material, hit_->front);
+  } else if (!sources) {
+    seen = context_.sky.smooth(ray_.direction);
+  } else {
+    seen = context_.sky.radiance(ray_.direction);
+    for (const SunLight& sun : context_.scene.suns) {
+      // The disc has its irradiance spread over its solid angle; a parallel sun cannot be seen.
+      const double sine = std::sin(0.25 * sun.angular_diameter * std::numbers::pi / 180.0), v = 2.0 * sine * sine;
+      const Vector toward = -normalized(sun.direction);
+      if (v > 0.0 && 0.5 * length_squared(ray_.direction - toward) <= v) {
+        seen += sun.irradiance / (2.0 * std::numbers::pi * v);
+      }
+    }
+  }
+  return seen * through;
+}
+
+Spectrum SingleRay::reflected(const Hit& hit, const Vector& out) {
+  const SurfacePoint surface = surface_point(context_.geometry, hit);
+  const Vector start = context_.geometry.leave(hit.point, hit.geometric_normal);
+  Spectrum sum;
+  for (const auto* lamps : {&context_.lamps, &context_.glow}) {
+    for (const SingleLamp& lamp : *lamps) {
+      const Vector way = lamp.position - start;
+      const double squared = length_squared(way);
+      if (!(squared > 0.0)) continue;
+      const Vector in = way / std::sqrt(squared);
+      const Spectrum light =
+          lamp.intensity * evaluate(surface, out, in) * (lamp.falloff(-in) / (squared + lamp.softening));
+      if (!is_zero(light)) sum += light * open_way(start, lamp.position);
+    }
+  }
+  for (const SingleSun& sun : context_.suns) {
+    const Spectrum light = sun.irradiance * evaluate(surface, out, sun.toward);
+    if (!is_zero(light)) sum += light * open_way({start, sun.toward});
+  }
+  if (context_.sky.empty()) return sum;
+  // The smooth sky, by directions that the surface favours: so many of its glossy, so many of its diffuse lobe, each on
+  // a Fibonacci lattice, weighted by the density of both together.
+  const int count = context_.settings.surface_directions;
+  const double out_cosine = dot(surface.frame.normal, out);
+  if (count < 1 || !(out_cosine > 0.0)) return sum;
+  const double chance = glossy_chance(surface, out_cosine);
+  const int glossy = static_cast<int>(std::lround(chance * count));
+  Spectrum sky;
+  for (int k = 0; k < count; ++k) {
+    const bool is_glossy = k < glossy;
+    const FibonacciPoint at = is_glossy ? fibonacci(k, glossy) : fibonacci(k - glossy, count - glossy);
+    const Vector in = sample_direction(surface, out, is_glossy ? 0.0 : 1.0, at.x, at.y);
+    const double diffuse = std::max(0.0, dot(surface.frame.normal, in)) / std::numbers::pi;
+    const double facets = (direction_density(surface, out, in) - (1.0 - chance) * diffuse) / chance;
+    const double density = glossy * std::max(0.0, facets) + (count - glossy) * diffuse;
+    if (!(density > 0.0)) continue;
+    const Spectrum light = context_.sky.smooth(in) * evaluate(surface, out, in) / density;
+    if (!is_zero(light)) sky += light * open_way({start, in});
+  }
+  return sum + sky;
+}
+
+Spectrum SingleRay::from_lamp(std::size_t index) { return from(context_.lamps[index], context_.settings.tolerance); }
+
+Spectrum SingleRay::from(const SingleLamp& lamp, double tolerance) {
+  if (medium_.empty()) return {};
+  Interval range{0.0, medium_.reach()};
+  if (lamp.shape == SingleLamp::Shape::spot || lamp.shape == SingleLamp::Shape::one_sided) {
+    const bool spot = lamp.shape == SingleLamp::Shape::spot;
+    range = intersection(
+        range, cone_stretch(LampView::of(ray_, lamp.position), lamp.axis, spot ? lamp.spot.outer_angle : 90.0));
+  }
+  if (range.empty()) return {};
+  const Wedge wedge = Wedge::toward_lamp(ray_, range, lamp.position);
+  context_.shadows.lit(wedge, lit_);
+  if (!wedge.flat && !context_.shadows.empty()) {
+    // The lamp stands on the ray's line: no surface is on the ray itself, but there may be some between it and the
+    // lamp.
+    const bool behind_surface = hit_ && wedge.along >= end_;
+    const Vector nearest = ray_.at(std::clamp(wedge.along, range.begin, range.end));
+    if (behind_surface || context_.geometry.occluded(nearest, lamp.position)) lit_.clear();
+  }
+  return lamp_airlight(medium_, lamp, lit_, tolerance);
+}
+
+Spectrum SingleRay::from_direction(const Vector& toward, double tolerance) {
+  const Wedge wedge = Wedge::toward_direction(ray_, {0.0, medium_.reach()}, toward);
+  context_.shadows.lit(wedge, lit_);
+  if (!wedge.flat && !context_.shadows.empty()) {
+    const bool ahead = dot(toward, ray_.direction) > 0.0;
+    const bool dark =
+        ahead ? hit_.has_value() || context_.geometry.occluded(Ray{ray_.at(std::min(end_, medium_.reach())), toward})
+              : context_.geometry.occluded(Ray{ray_.origin, toward});
+    if (dark) lit_.clear();
+  }
+  return sun_airlight(medium_, toward, lit_, tolerance);
+}
+
+Spectrum SingleRay::from_sun(std::size_t index) {
+  if (medium_.empty()) return {};
+  const SingleSun& sun = context_.suns[index];
+  return sun.irradiance * from_direction(sun.toward, context_.settings.tolerance);
+}
+
+Spectrum SingleRay::from_glow() {
+  Spectrum sum;
+  for (const SingleLamp& lamp : context_.glow)
+    sum += from(lamp, std::max(coarse_tolerance, context_.settings.tolerance));
+  return sum;
+}
+
+Spectrum SingleRay::from_the_rest() {
+  Spectrum sum = from_glow() + from_sky();
+  for (std::size_t i = 0; i < context_.suns.size(); ++i) sum += from_sun(i);
+  return sum;
+}
+
+/// The smooth sky: so many directions for each of the medium's lobes as it has a share in the scattering along the ray,
+/// spread evenly in its own cumulative distribution, so that the sharpest lobe asks for no more of them than the
+/// broadest; weighted by the density of all together. Each is a sun.
+Spectrum SingleRay::from_sky() {
+  const int count = context_.settings.sky_directions;
+  if (medium_.empty() || context_.sky.empty() || count < 1) return {};
+  const SingleMedium& medium = context_.medium;
+  shares_.assign(medium.kinds.size(), 0.0);
+  double whole = 0.0;
+  for (const Stretch& s : medium_.stretches()) {
+    const double column = s.depth_to(medium_.reach());
+    for (std::size_t i = s.species->first_lobe; i < s.species->first_lobe + s.species->lobe_count; ++i) {
+      const double scattered = mean(medium.lobes[i].scattering) * column;
+      shares_[medium.kind[i]] += scattered;
+      whole += scattered;
+    }
+  }
+  if (!(whole > 0.0)) return {};
+  // At least four each: none may be found by another's directions alone.
+  for (double& share : shares_) share = share > 0.0 ? std::max(4.0, std::round(count * share / whole)) : 0.0;
+  const double tolerance = std::max(coarse_tolerance, context_.settings.tolerance);
+  const Frame frame = Frame::around(ray_.direction);
+  Spectrum sum;
+  int turn = 0;
+  for (std::size_t kind = 0; kind < shares_.size(); ++kind) {
+    const int directions = static_cast<int>(shares_[kind]);
+    for (int k = 0; k < directions; ++k) {
+      const double height = fibonacci(k, directions).x, angle = 2.0 * std::numbers::pi * fibonacci(turn++, 1).y;
+      const Deflection<double> d =
+          std::visit([&](const auto& lobe) { return lobe.sample(height); }, medium.kinds[kind]);
+      double density = 0.0;
+      for (std::size_t other = 0; other < shares_.size(); ++other) {
+        if (shares_[other] == 0.0) continue;
+        density += shares_[other] * std::visit([&](const auto& l) { return l.density(d); }, medium.kinds[other]);
+      }
+      // Undeflected light comes from straight ahead.
+      const double sine = d.sine();
+      const Vector toward = normalized(frame.to_world({sine * std::cos(angle), sine * std::sin(angle), d.mu}));
+      const Spectrum light = context_.sky.smooth(toward);
+      if (!is_zero(light)) sum += light / density * from_direction(toward, tolerance);
+    }
+  }
+  return sum;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,222 @@
+#include "tyndall/scene/scene_file.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <numbers>
+
+#include "tyndall/document/binding.h"
+#include "tyndall/document/reference.h"
+#include "tyndall/image/panorama.h"
+#include "tyndall/scene/gltf.h"
+#include "tyndall/scene/scene_description.h"
+
+namespace tyndall {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_gltf(const fs::path& file) {
+  std::string extension = file.extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".glb" || extension == ".gltf";
+}
+
+/// The camera that sees everything from slightly above and beside, as one would hold a thing to look at it.
+Camera framing(const Scene& scene) {
+  Camera camera;
+  Vector low{infinity, infinity, infinity}, high = -low;
+  for (const Mesh& mesh : scene.meshes) {
+    for (const auto& p : mesh.positions) {
+      low = {std::min<double>(low.x, p[0]), std::min<double>(low.y, p[1]), std::min<double>(low.z, p[2])};
+      high = {std::max<double>(high.x, p[0]), std::max<double>(high.y, p[1]), std::max<double>(high.z, p[2])};
+    }
+  }
+  if (!(low.x <= high.x)) return camera;
+  const double radius = std::max(0.5 * length(high - low), 1e-6);
+  const double half_height = std::tan(0.5 * camera.vertical_fov * std::numbers::pi / 180.0);
+  const double half_width = half_height * scene.film.width / scene.film.height;
+  camera.look_at = (low + high) * 0.5;
+  const double distance = radius / std::sin(std::atan(std::min(half_height, half_width)));
+  camera.position = camera.look_at + normalized({0.5, 0.35, 1.0}) * distance;
+  return camera;
+}
+
+bool has_light(const Scene& scene) {
+  return !scene.points.empty() || !scene.spots.empty() || !scene.suns.empty() || scene.environment ||
+         std::ranges::any_of(scene.meshes, [&](const Mesh& mesh) {
+           return mesh.material >= 0 && !is_zero(scene.materials[static_cast<std::size_t>(mesh.material)].emission);
+         });
+}
+
+/// Camera and film, where the scene file does not state them: from the glTF file, else so that all is seen.
+void complete_view(Scene& scene, const std::optional<GltfCamera>& found, bool has_camera, bool has_film) {
+  if (!has_film && !has_camera && found && found->aspect) {
+    const double width = std::round(scene.film.height * *found->aspect);
+    scene.film.width = static_cast<int>(std::clamp(width, 1.0, 16384.0));
+  }
+  if (!has_camera) scene.camera = found ? found->camera : framing(scene);
+}
+
+Scene scene_of_gltf(const fs::path& file, const SceneOptions& options) {
+  Scene scene;
+  const auto camera = add_gltf(scene, file, 1.0, options.allow_path);
+  complete_view(scene, camera, false, false);
+  if (!has_light(scene)) {
+    scene.environment.emplace().radiance = Spectrum::grey(1.0);
+    scene.warnings.push_back(place(file.string()) + ": no light: an environment of radiance 1 W/(m^2 sr) stands in");
+  }
+  if (!options.medium.empty()) scene.medium = compile(read_medium_file(options.medium), options.medium.string());
+  return scene;
+}
+
+/// Turns a description into a scene. `root` is the description's JSON, for the places of faults.
+class Assembly {
+ public:
+  Assembly(const JsonCursor& root, const fs::path& file, const SceneOptions& options)
+      : root_(root), file_(file), options_(options) {}
+
+  Scene run(const SceneDescription& description) {
+    unit_ = description.meters_per_unit;
+    scene_.meters_per_unit = unit_;
+    scene_.fps = description.fps;
+    scene_.integrator = description.integrator;
+    if (description.film) scene_.film = *description.film;
+    if (!options_.medium.empty()) {
+      add_medium(read_medium_file(options_.medium), options_.medium.string(), {});
+    } else if (description.medium) {
+      add_medium(*description.medium, root_.at("medium"), {});
+    }
+    for (std::size_t i = 0; i < description.volumes.size(); ++i) {
+      const JsonCursor at = root_.at("volumes").at(i);
+      add_medium(description.volumes[i].medium, at.at("medium"),
+                 {metres(description.volumes[i].profile, at.at("profile"))});
+    }
+    std::optional<GltfCamera> camera;
+    for (std::size_t i = 0; i < description.geometry.size(); ++i) {
+      const auto found = add_geometry(description.geometry[i], root_.at("geometry").at(i));
+      if (!camera) camera = found;
+    }
+    for (std::size_t i = 0; i < description.lights.size(); ++i) {
+      const JsonCursor at = root_.at("lights").at(i);
+      std::visit([&](const auto& light) { add_light(metres(light, at), at); }, description.lights[i]);
+    }
+    if (description.camera) {
+      scene_.camera = metres(*description.camera, root_.at("camera"));
+      if (auto objection = objection_to(scene_.camera)) throw root_.at("camera").fault_below(*objection);
+    }
+    complete_view(scene_, camera, description.camera.has_value(), description.film.has_value());
+    if (!has_light(scene_)) scene_.warnings.push_back(place(file_.string()) + ": no light: the picture will be black");
+    return std::move(scene_);
+  }
+
+ private:
+  /// A described value in metres; Fault where that makes a number useless.
+  template <class T>
+  T metres(const T& value, const JsonCursor& at) const {
+    T scaled = in_metres(value, unit_);
+    if constexpr (Described<T>) {
+      if (auto objection = unusable_number(scaled)) throw at.fault_below(*objection);
+    } else {
+      std::visit([&](const auto& chosen) { metres_checked(chosen, at); }, scaled);
+    }
+    return scaled;
+  }
+  template <class T>
+  static void metres_checked(const T& scaled, const JsonCursor& at) {
+    if (auto objection = unusable_number(scaled)) throw at.fault_below(*objection);
+  }
+
+  /// The file that a text of this scene names.
+  fs::path named(const std::string& name, const JsonCursor& at) const {
+    return referenced_file(file_, name, options_.allow_path, at.fault("", "").where);
+  }
+
+  void add_medium(const MediumReference& reference, const JsonCursor& at, const std::vector<Profile>& profiles) {
+    if (const auto* name = std::get_if<MediumName>(&reference)) {
+      const fs::path path = named(name->file, at);
+      add_medium(read_medium_file(path), path.string(), profiles);
+    } else {
+      add_medium(medium_file_at(at), at.file(), profiles);
+    }
+  }
+
+  void add_medium(const MediumFile& file, const std::string& name, const std::vector<Profile>& profiles) {
+    const ChannelTag channels = channels_of(file);
+    if (channels_ && *channels_ != channels) {
+      scene_.warnings.push_back(place(name) + ": its channels mean something else than those of the media before it");
+    }
+    channels_ = channels;
+    for (Species& species : compile(file, name).species) {
+      species.profiles.insert(species.profiles.end(), profiles.begin(), profiles.end());
+      scene_.medium.species.push_back(std::move(species));
+    }
+  }
+
+  std::optional<GltfCamera> add_geometry(const GeometryReference& reference, const JsonCursor& at) {
+    if (const auto* file = std::get_if<GeometryFile>(&reference)) {
+      return add_gltf(scene_, named(file->file, at.at("file")), file->meters_per_unit, options_.allow_path);
+    }
+    return add_gltf(scene_, named(std::get<GeometryName>(reference).file, at), 1.0, options_.allow_path);
+  }
+
+  void add_light(const PointLight& light, const JsonCursor&) { scene_.points.push_back(light); }
+  void add_light(SpotLight light, const JsonCursor&) {
+    light.direction = normalized(light.direction);
+    scene_.spots.push_back(light);
+  }
+  void add_light(SunLight light, const JsonCursor&) {
+    light.direction = normalized(light.direction);
+    scene_.suns.push_back(light);
+  }
+  void add_light(const EnvironmentDescription& from, const JsonCursor& at) {
+    if (scene_.environment) throw at.fault("a second environment", "one environment");
+    EnvironmentLight light;
+    light.radiance = from.radiance.value_or(Spectrum{});
+    light.scale = from.scale;
+    light.rotation = from.rotation;
+    if (from.file) {
+      const fs::path file = named(*from.file, at.at("file"));
+      light.panorama = std::make_shared<const Panorama>(read_panorama(file));
+      if (light.panorama->width != 2 * light.panorama->height) {
+        scene_.warnings.push_back(place(file.string()) +
+                                  ": not twice as wide as high, but taken as a latitude-longitude picture");
+      }
+    }
+    scene_.environment = std::move(light);
+  }
+
+  JsonCursor root_;
+  const fs::path& file_;
+  const SceneOptions& options_;
+  double unit_ = 1.0;
+  Scene scene_;
+  std::optional<ChannelTag> channels_;
+};
+
+/// A medium written in place need not repeat what the scene file says already.
+void complete_medium(Json& owner, const Json& meters_per_unit) {
+  if (!owner.is_object() || !owner.contains("medium") || !owner["medium"].is_object()) return;
+  Json& medium = owner["medium"];
+  if (!medium.contains("format")) medium["format"] = "tyndall-medium/1";
+  if (!medium.contains("meters_per_unit") && !meters_per_unit.is_null()) medium["meters_per_unit"] = meters_per_unit;
+}
+
+}  // namespace
+
+Scene read_scene(const fs::path& file, const SceneOptions& options) {
+  if (is_gltf(file)) return scene_of_gltf(file, options);
+  JsonText json = read_json(file);
+  if (json.root.is_object()) {
+    const Json unit = json.root.value("meters_per_unit", Json{});
+    complete_medium(json.root, unit);
+    if (json.root.contains("volumes") && json.root["volumes"].is_array()) {
+      for (Json& volume : json.root["volumes"]) complete_medium(volume, unit);
+    }
+  }
+  const JsonCursor root(json);
+  return Assembly(root, file, options).run(read_as<SceneDescription>(root));
+}
+
+}  // namespace tyndall
