@@ -10,7 +10,7 @@ RUBBER = Material("rubber", (0.015, 0.015, 0.015), roughness=0.9)
 RIM = Material("rim", (0.45, 0.45, 0.46), roughness=0.35)
 TRIM = Material("trim", (0.02, 0.02, 0.022), roughness=0.6)
 PLATE = Material("number plate", (0.75, 0.75, 0.68), roughness=0.6)
-LENS = Material("headlight lens", (0.0, 0.0, 0.0), roughness=1.0, metallic=1.0, radiance=(17.0, 19.0, 20.0))
+LENS = Material("headlight lens", (0.0, 0.0, 0.0), roughness=1.0, metallic=1.0, radiance=(8.4, 9.3, 10.0))
 TAIL = Material("tail light", (0.1, 0.0, 0.0), roughness=0.5, radiance=(1.6, 0.04, 0.02))
 
 # From nose to tail: z, height of the sill, height of the widest line, height of the shoulder, half width at those three.

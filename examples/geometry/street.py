@@ -24,18 +24,19 @@ FACADE = ROAD + PAVEMENT
 
 LAMP_HEIGHT = 6.9
 LAMP_REACH = 1.7
-SODIUM = (1.0, 0.6, 0.26)
-LAMP_INTENSITY = 420.0  # W/sr, of the channel that is strongest
-LAMPS = [(side, z) for k in range(6) for side, z in ((-1, -12.0 - 32.0 * k), (1, -28.0 - 32.0 * k))]
+SODIUM = (1.0, 0.64, 0.31)
+LAMP_INTENSITY = 85.0  # W/sr, of the channel that is strongest
+# (side, z), staggered; the first stands behind the camera's right shoulder and lights the foreground.
+LAMPS = [(1, -4.0)] + [(side, z) for k in range(5) for side, z in ((-1, -20.0 - 32.0 * k), (1, -36.0 - 32.0 * k))]
 
 COOL_WHITE = (0.84, 0.93, 1.0)
-HEADLIGHT_INTENSITY = 2600.0
-CAR_AT = (-2.75, 0.0, -25.5)
-CAR_YAW = 180.0 + 27.0
+HEADLIGHT_INTENSITY = 330.0
+CAR_AT = (-1.75, 0.0, -22.5)
+CAR_YAW = 180.0 - 33.0  # turning into a yard on the left: the beams cross the picture, not the lens
 
 MARKER_DISTANCES = (25, 50, 100, 200)
 
-ASPHALT = Material("wet asphalt", (0.8, 0.8, 0.82), roughness=0.34, texture=texture.asphalt(), tile=4.0)
+ASPHALT = Material("wet asphalt", (0.8, 0.8, 0.82), roughness=0.26, texture=texture.asphalt(), tile=4.0)
 PUDDLE = Material("puddle", (0.016, 0.017, 0.019), roughness=0.07)
 SLABS = Material("pavement", (0.13, 0.125, 0.12), roughness=0.5)
 JOINT = Material("pavement joint", (0.05, 0.05, 0.05), roughness=0.7)
@@ -58,11 +59,11 @@ LIT = [
     Material("lit window, dim", (0.1, 0.1, 0.1), radiance=(0.42, 0.2, 0.07)),
     Material("lit window, cool", (0.1, 0.1, 0.1), radiance=(0.28, 0.44, 0.55)),
 ]
-SHOP = Material("shop window", (0.1, 0.1, 0.1), radiance=(0.85, 0.62, 0.36))
+SHOP = Material("shop window", (0.1, 0.1, 0.1), radiance=(0.62, 0.38, 0.15))
 IRON = Material("painted iron", (0.02, 0.024, 0.024), roughness=0.45)
 # What sits within a hand of a lamp's point light returns nothing, or it would be a second, blinding lamp.
 BLACK = Material("lamp housing", (0.0, 0.0, 0.0), roughness=1.0, metallic=1.0)
-BULB = Material("lamp bulb", (0.0, 0.0, 0.0), roughness=1.0, metallic=1.0, radiance=(60.0, 37.0, 16.0))
+BULB = Material("lamp bulb", (0.0, 0.0, 0.0), roughness=1.0, metallic=1.0, radiance=(24.0, 15.0, 6.5))
 REFLECTOR = Material("marker, reflecting", (0.85, 0.85, 0.82), roughness=0.6, radiance=(0.5, 0.5, 0.48))
 MARKER = Material("marker, dark", (0.012, 0.012, 0.014), roughness=0.8)
 BARK = Material("bark", (0.03, 0.026, 0.022))
@@ -109,8 +110,10 @@ def markings():
 
 def puddles(source):
     mesh = Mesh("puddles")
-    spots = [(1.9, -8.6, 1.5, 0.9), (-2.7, -17.0, 1.1, 2.2), (2.6, -19.5, 1.2, 2.8), (0.9, -30.0, 1.0, 3.2)]
-    spots += [(-0.9, -41.0, 1.3, 4.0), (2.4, -52.0, 1.1, 5.0), (-2.2, -66.0, 1.3, 6.0), (5.4, -15.0, 0.8, 1.6)]
+    # Along the gutters, and where the far lamps are mirrored toward the camera.
+    spots = [(-1.4, -8.75, 1.5, 0.45), (3.6, -10.5, 0.6, 2.2), (-3.5, -17.2, 0.75, 2.4), (1.3, -16.0, 1.0, 1.2)]
+    spots += [(3.5, -21.0, 0.8, 3.4), (0.6, -30.0, 0.9, 3.0), (-0.9, -41.0, 1.3, 4.0), (2.6, -52.0, 1.1, 5.0)]
+    spots += [(-2.4, -66.0, 1.3, 6.0), (5.4, -15.0, 0.8, 1.6)]
     for x, z, across, along in spots:
         rim = []
         for k in range(28):
@@ -208,7 +211,9 @@ def band(front, wall, cheek, holes, h0, h1, width, detailed):
         front.rectangle(wall, s0, s1, high, h1)
         if detailed:
             front.opening(cheek, glass, s0, s1, low, high, 0.2)
-            if high - low < 2.0:  # a cross of glazing bars
+            if glass is SHOP:
+                shop_window(front, s0, s1, low, high)
+            elif high - low < 2.0:  # a cross of glazing bars
                 middle = 0.5 * (s0 + s1)
                 front.rectangle(cheek, middle - 0.03, middle + 0.03, low, high, 0.17)
                 front.rectangle(cheek, s0, s1, low + 1.2, low + 1.26, 0.165)
@@ -216,6 +221,22 @@ def band(front, wall, cheek, holes, h0, h1, width, detailed):
             front.rectangle(glass, s0, s1, low, high, 0.0)
         edge = s1
     front.rectangle(wall, edge, width, h0, h1)
+
+
+def shop_window(front, s0, s1, low, high):
+    """Glazing bars, and goods on shelves against the light."""
+    for k in range(1, 3):
+        s = s0 + (s1 - s0) * k / 3
+        front.rectangle(IRON, s - 0.03, s + 0.03, low, high, 0.17)
+    front.rectangle(IRON, s0, s1, high - 0.5, high - 0.44, 0.165)
+    goods = random.Random(round(1000 * s0))
+    for shelf in (low, low + 0.75):
+        front.rectangle(IRON, s0, s1, shelf, shelf + 0.05, 0.185)
+        s = s0 + 0.05
+        while s < s1 - 0.35:
+            wide, tall = 0.12 + 0.2 * goods.random(), 0.15 + 0.35 * goods.random()
+            front.rectangle(DOOR, s, s + wide, shelf + 0.05, shelf + 0.05 + tall, 0.19)
+            s += wide + 0.05 + 0.3 * goods.random()
 
 
 def roof(mesh, side, near, width, height, wall, source):

@@ -1,7 +1,6 @@
 // The program as a user runs it: show, phase, blend, and what it says when it cannot.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <cmath>
 #include <cstdio>
@@ -12,6 +11,7 @@
 #include <sstream>
 #include <string>
 
+#include "tests/program.h"
 #include "tests/shared_folder.h"
 #include "tyndall/document/binding.h"
 #include "tyndall/document/medium_file.h"
@@ -22,39 +22,12 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::StartsWith;
+using tests::Outcome;
+using tests::ProgramTest;
+using tests::text_of;
 
-struct Outcome {
-  int code = -1;
-  std::string out, err;
-};
-
-std::string text_of(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
-
-/// A temporary folder in which the program is run.
-class Program : public testing::Test {
+class Program : public ProgramTest {
  protected:
-  void SetUp() override {
-    ASSERT_TRUE(fs::exists(TYNDALL_PROGRAM)) << "build tyndall_cli first";
-    std::string name = (fs::temp_directory_path() / "tyndall-cli-XXXXXX").string();
-    folder_ = ::mkdtemp(name.data());
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  /// Runs `tyndall <arguments>` through the shell; arguments are ours, quoted where they need it.
-  Outcome tyndall(const std::string& arguments) const {
-    const fs::path out = folder_ / "stdout", err = folder_ / "stderr";
-    const std::string command = "cd '" + folder_.string() + "' && '" + TYNDALL_PROGRAM "' " + arguments + " >'" +
-                                out.string() + "' 2>'" + err.string() + "' </dev/null";
-    const int status = std::system(command.c_str());
-    const Outcome run{WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(out), text_of(err)};
-    fs::remove(out);
-    fs::remove(err);
-    return run;
-  }
   Json json_of(const std::string& arguments) const {
     const Outcome run = tyndall(arguments + " --json");
     EXPECT_EQ(run.code, 0) << run.err;
@@ -64,12 +37,6 @@ class Program : public testing::Test {
   std::string example(const std::string& name) const {
     return "'" + (fs::path(TYNDALL_SOURCE_DIR) / "examples" / "media" / (name + ".medium.json")).string() + "'";
   }
-  void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
-  std::size_t files() const {
-    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
-  }
-
-  fs::path folder_;
 };
 
 TEST_F(Program, ShowPrintsTheKeysOfTheContract) {

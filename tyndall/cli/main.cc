@@ -1,5 +1,8 @@
 // The program tyndall. Exit codes: 0 done, 1 something went wrong inside or while writing, 2 the request or a file in
-// it cannot be used (nothing has been written then).
+// it cannot be used (nothing has been written then), 128 + n stopped by signal n after writing what there was.
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <exception>
 #include <iostream>
 #include <new>
@@ -30,6 +33,14 @@ std::string command_hint(const CLI::App& app, int argc, char** argv) {
   return "no command " + in_quotes(argv[1]) + ", only " + one_of(argv[1], names);
 }
 
+/// Where the caller closed a standard stream, the next file opened would take its number, and a message would go into
+/// it. Opened for the wrong direction, it still fails as a closed one does.
+void occupy_standard_streams() {
+  for (int stream = 0; stream < 3; ++stream) {
+    if (::fcntl(stream, F_GETFD) == -1) ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+  }
+}
+
 int complain(int code, const std::string& message) {
   std::cerr << "tyndall: " << message << '\n';
   return code;
@@ -49,6 +60,8 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
     std::cout << app.help();
+  } catch (const CLI::RuntimeError& ended) {  // a command that chose its exit code, having said what there is to say
+    return ended.get_exit_code();
   } catch (const CLI::ParseError& error) {
     const std::string hint = command_hint(app, argc, argv);
     return complain(unusable_request, hint.empty() ? error.what() + std::string(" (see --help)") : hint);
@@ -62,6 +75,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace tyndall;
+  occupy_standard_streams();
   try {
     return run(argc, argv);
   } catch (const Fault& fault) {

@@ -2,24 +2,27 @@
 #include <iostream>
 #include <memory>
 
+#include "tyndall/cli/arguments.h"
 #include "tyndall/cli/commands.h"
 #include "tyndall/cli/number_list.h"
+#include "tyndall/cli/scene_arguments.h"
 #include "tyndall/cli/table.h"
+#include "tyndall/document/fault.h"
 #include "tyndall/document/writing.h"
 #include "tyndall/render/path.h"
 #include "tyndall/render/single.h"
-#include "tyndall/scene/scene_file.h"
 
 namespace tyndall {
 namespace {
 
 struct ProbeOptions {
-  std::string scene, medium, origin, direction, integrator = "single";
+  SceneArguments scene;
+  std::string origin, direction, integrator = "single";
   double distance = infinity;
   std::uint32_t spp = 65536;
   std::uint64_t seed = 1;
   int threads = 0;
-  bool fluence = false, json = false, allow_path = false;
+  bool fluence = false, json = false;
 };
 
 Vector vector_from(const std::string& text, const std::string& option) {
@@ -41,7 +44,7 @@ SingleSettings finer() {
 ProbeEstimate estimate(const ProbeOptions& options, const Scene& scene, const Ray& ray, double distance) {
   const Geometry geometry(scene);
   if (options.integrator == "path") {
-    const PathContext context(scene, geometry, scene.integrator.max_depth);
+    const PathContext context(scene, geometry, scene.integrator.max_depth, 1.0);
     return options.fluence ? path_fluence(context, ray.origin, options.spp, options.seed, options.threads)
                            : path_probe(context, ray, distance, options.spp, options.seed, options.threads);
   }
@@ -54,20 +57,14 @@ ProbeEstimate estimate(const ProbeOptions& options, const Scene& scene, const Ra
   return {layers.surface + layers.single, {}, layers.transmittance};
 }
 
-OrderedJson list_of(const Spectrum& values) {
-  OrderedJson list = OrderedJson::array();
-  for (const double x : values.value) list.push_back(written_number(x));
-  return list;
-}
-
 void print(const ProbeOptions& options, const ProbeEstimate& result) {
   const char* const what = options.fluence ? "fluence rate" : "radiance";
   if (options.json) {
     OrderedJson out = OrderedJson::object();
-    out["radiance"] = list_of(result.radiance);
+    out["radiance"] = written(result.radiance.value);
     if (options.fluence) out["fluence"] = out["radiance"];
-    out["standard_error"] = list_of(result.standard_error);
-    out["transmittance"] = list_of(result.transmittance);
+    out["standard_error"] = written(result.standard_error.value);
+    out["transmittance"] = written(result.transmittance.value);
     std::cout << pretty(out);
     return;
   }
@@ -93,8 +90,7 @@ void probe(const ProbeOptions& options) {
     throw Fault("--direction", "nothing", "the direction to look in, as x,y,z");
   }
   const Vector origin = vector_from(options.origin, "--origin");
-  const Scene scene = read_scene(options.scene, {options.medium, options.allow_path});
-  for (const std::string& warning : scene.warnings) std::cerr << "warning: " << warning << '\n';
+  const Scene scene = scene_of(options.scene);
   const double metres = scene.meters_per_unit;
   print(options, estimate(options, scene, {origin * metres, direction}, options.distance * metres));
 }
@@ -104,8 +100,7 @@ void probe(const ProbeOptions& options) {
 void add_probe(CLI::App& app) {
   auto options = std::make_shared<ProbeOptions>();
   CLI::App* command = app.add_subcommand("probe", "Measure the light that arrives at a point of a scene");
-  command->add_option("SCENE", options->scene, "A .scene.json, .glb or .gltf file")->required();
-  command->add_option("--medium", options->medium, "The air: a medium file, instead of the scene's own");
+  add_scene_arguments(*command, options->scene);
   command->add_option("--origin", options->origin, "Where to measure: x,y,z in the scene's units")->required();
   command->add_option("--direction", options->direction, "Which way to look: x,y,z, of any length");
   command
@@ -124,12 +119,9 @@ void add_probe(CLI::App& app) {
       ->check(CLI::Range(2u, 4000000000u));
   command->add_flag("--fluence", options->fluence,
                     "Add up the light from all directions [W/m^2] instead of looking in one");
-  command->add_option("--seed", options->seed, "Another number gives other random samples (default 1)");
-  command->add_option("--threads", options->threads, "Processor threads (default: all); the result is the same")
-      ->check(CLI::Range(1, 1024));
+  add_seed(*command, options->seed);
+  add_threads(*command, options->threads);
   command->add_flag("--json", options->json, "Print one JSON object");
-  command->add_flag("--allow-path", options->allow_path,
-                    "Follow references to files outside the folder of the file that names them");
   command->footer(
       "Radiance is in W/(m^2 sr) per channel. With --distance, nothing at or beyond it is added, but lights and air\n"
       "beyond it still light what is before it. A ray through a lamp sees infinity (null in JSON).\n\n"

@@ -1,6 +1,5 @@
 // `tyndall probe` as a user runs it: scene files written to a folder, numbers read from its JSON.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <cmath>
 #include <filesystem>
@@ -9,6 +8,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "tests/program.h"
 #include "tests/shared_folder.h"
 
 namespace tyndall {
@@ -17,36 +17,14 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-class Probe : public testing::Test {
+class Probe : public tests::ProgramTest {
  protected:
-  void SetUp() override {
-    ASSERT_TRUE(fs::exists(TYNDALL_PROGRAM)) << "build tyndall_cli first";
-    std::string name = (fs::temp_directory_path() / "tyndall-probe-XXXXXX").string();
-    folder_ = ::mkdtemp(name.data());
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  int run(const std::string& arguments, std::string& out) const {
-    const fs::path file = folder_ / "stdout";
-    const int status = std::system(("'" TYNDALL_PROGRAM "' probe '" + (folder_ / "x.scene.json").string() + "' " +
-                                    arguments + " >'" + file.string() + "' 2>'" + (folder_ / "stderr").string() + "'")
-                                       .c_str());
-    std::ostringstream text;
-    text << std::ifstream(file).rdbuf();
-    out = text.str();
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
   json probe(const json& scene, const std::string& arguments) const {
-    std::ofstream(folder_ / "x.scene.json") << scene.dump();
-    std::string out;
-    const int code = run(arguments + " --json", out);
-    std::ostringstream messages;
-    messages << std::ifstream(folder_ / "stderr").rdbuf();
-    EXPECT_EQ(code, 0) << messages.str();
-    return json::parse(out, nullptr, false);
+    write("x.scene.json", scene.dump());
+    const tests::Outcome run = tyndall("probe x.scene.json " + arguments + " --json");
+    EXPECT_EQ(run.code, 0) << run.err;
+    return json::parse(run.out, nullptr, false);
   }
-
-  fs::path folder_;
 };
 
 json phase_named(const std::string& name) {
@@ -160,15 +138,15 @@ TEST_F(Probe, ARayThroughALampIsNullNotAnError) {
 }
 
 TEST_F(Probe, AnswersMisuseWithExitCode2) {
-  std::ofstream(folder_ / "x.scene.json") << scene_with(medium_of(0.1, 0.0, "isotropic"), json::array()).dump();
+  write("x.scene.json", scene_with(medium_of(0.1, 0.0, "isotropic"), json::array()).dump());
   for (const char* arguments :
        {"", "--origin 0,0,0", "--origin 0,0 --direction 1,0,0", "--origin 0,0,0 --direction 0,0,0",
         "--origin 0,0,0 --direction 1,0,0 --distance 0", "--origin 0,0,0 --direction 1,0,0 --distance nan",
         "--origin 0,0,0 --direction 1,0,0 --distance -1", "--origin a,b,c --direction 1,0,0",
         "--origin 0,0,0 --direction 1,0,0 --integrator both", "--origin inf,0,0 --direction 1,0,0"}) {
-    std::string out;
-    EXPECT_EQ(run(arguments, out), 2) << arguments;
-    EXPECT_EQ(out, "") << arguments;
+    const tests::Outcome run = tyndall(std::string("probe x.scene.json ") + arguments);
+    EXPECT_EQ(run.code, 2) << arguments;
+    EXPECT_EQ(run.out, "") << arguments;
   }
 }
 

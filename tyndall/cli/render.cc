@@ -1,49 +1,72 @@
 // tyndall render: pictures of scenes.
 #include "tyndall/render/render.h"
 
+#include <unistd.h>
+
 #include <charconv>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <exception>
 #include <memory>
+#include <optional>
+#include <set>
 
+#include "tyndall/cli/arguments.h"
 #include "tyndall/cli/commands.h"
 #include "tyndall/cli/progress.h"
+#include "tyndall/cli/scene_arguments.h"
 #include "tyndall/document/spelling.h"
+#include "tyndall/document/whole_file.h"
 #include "tyndall/image/exr.h"
 #include "tyndall/image/png.h"
-#include "tyndall/scene/scene_file.h"
+#include "tyndall/render/film.h"
+#include "tyndall/scene/scene_description.h"
 
 namespace tyndall {
 namespace {
 
 struct RenderOptions {
-  std::string scene, medium, size, integrator, tone = "filmic";
+  SceneArguments scene;
+  std::string size, integrator, tone = "filmic";
   std::vector<std::string> outputs;
   int spp = 0, threads = 0;
   double exposure = 0.0;
   std::uint64_t seed = 1;
-  bool quiet = false, allow_path = false;
+  bool quiet = false;
 };
 
 std::atomic<bool> interrupted{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
+std::atomic<int> stopping_signal{0};
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
+              "a signal handler may only touch lock-free atomics");
 
-/// While it lives, the first Ctrl-C asks the renderer to stop; a second one ends the program as usual.
-class InterruptGuard {
- public:
-  InterruptGuard() {
-    struct sigaction action {};
-    action.sa_handler = [](int) { interrupted = true; };
-    action.sa_flags = static_cast<int>(SA_RESETHAND);
-    sigaction(SIGINT, &action, &before_);
-  }
-  ~InterruptGuard() { sigaction(SIGINT, &before_, nullptr); }
-  InterruptGuard(const InterruptGuard&) = delete;
-  InterruptGuard& operator=(const InterruptGuard&) = delete;
+/// From now on the first Ctrl-C (or SIGTERM) asks the renderer to stop; a second one ends the program as usual. Nobody
+/// reading the progress any more is no reason to end at all.
+void heed_signals() {
+  struct sigaction stop {};
+  stop.sa_handler = [](int signal) {
+    stopping_signal = signal;
+    interrupted = true;
+  };
+  stop.sa_flags = static_cast<int>(SA_RESETHAND);
+  sigaction(SIGINT, &stop, nullptr);
+  sigaction(SIGTERM, &stop, nullptr);
+  std::signal(SIGPIPE, SIG_IGN);
+}
 
- private:
-  struct sigaction before_ {};
-};
+/// A Fault where the picture would take more memory than the machine has: better than being killed for it.
+void check_memory(const Film& film) {
+  // While sampling, a Pixel each; at the end, the planes as well (22 floats leave room for files being packed).
+  constexpr double bytes_per_pixel = sizeof(Pixel) + 22 * sizeof(float);
+  const double need = bytes_per_pixel * film.width * film.height;
+  const double have = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  if (need <= have) return;
+  const auto gigabytes = [](double bytes) { return std::to_string(std::lround(bytes / 1e9)) + " GB"; };
+  throw Fault("film",
+              std::to_string(film.width) + "x" + std::to_string(film.height) + " pixels, which take " + gigabytes(need),
+              "a picture that fits into this machine's " + gigabytes(have));
+}
 
 Film film_size(const std::string& text) {
   Film film;
@@ -52,20 +75,52 @@ Film film_size(const std::string& text) {
   if (width.ec == std::errc{} && width.ptr != end && *width.ptr == 'x') {
     const auto height = std::from_chars(width.ptr + 1, end, film.height);
     const auto fits = [](int n) { return n >= 1 && n <= 16384; };
-    if (height.ec == std::errc{} && height.ptr == end && fits(film.width) && fits(film.height)) return film;
+    if (height.ec == std::errc{} && height.ptr == end && fits(film.width) && fits(film.height)) {
+      if (const auto objection = objection_to(film)) throw Fault("--size", objection->found, objection->expected);
+      return film;
+    }
   }
   throw Fault("--size", in_quotes(text), "WIDTHxHEIGHT in pixels, each from 1 to 16384, such as 1280x720");
 }
 
-void render_scene(const RenderOptions& options) {
-  for (const std::string& output : options.outputs) {
+/// Everything about the outputs that can be known before the work.
+void check_outputs(const std::vector<std::string>& outputs) {
+  std::set<std::filesystem::path> seen;
+  for (const std::string& output : outputs) {
     if (const std::string kind = std::filesystem::path(output).extension().string(); kind != ".exr" && kind != ".png") {
       throw Fault("--output", "the file name " + in_quotes(output), "a name ending in .exr or .png");
     }
+    check_writable(output);
+    if (!seen.insert(std::filesystem::weakly_canonical(output)).second) {
+      throw Fault("--output", "the file " + in_quotes(output) + " a second time", "each file once");
+    }
   }
-  Scene scene = read_scene(options.scene, {options.medium, options.allow_path});
-  for (const std::string& warning : scene.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
-  if (!options.size.empty()) scene.film = film_size(options.size);
+}
+
+/// Writes them all even if one cannot be written: the others may be all that is left of a night's work.
+void write_outputs(const RenderOptions& options, const Image& image) {
+  std::exception_ptr failure;
+  for (const std::string& output : options.outputs) {
+    try {
+      if (std::filesystem::path(output).extension() == ".exr") {
+        write_exr(output, image);
+      } else {
+        write_png(output, image, {options.exposure, options.tone == "none" ? Tone::none : Tone::filmic});
+      }
+    } catch (...) {
+      if (!failure) failure = std::current_exception();
+    }
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
+void render_scene(const RenderOptions& options) {
+  std::optional<Film> film;
+  if (!options.size.empty()) film = film_size(options.size);
+  check_outputs(options.outputs);
+  Scene scene = scene_of(options.scene);
+  if (film) scene.film = *film;
+  check_memory(scene.film);
   const Geometry geometry(scene);
   RenderSettings settings;
   settings.integrator = options.integrator.empty() ? scene.integrator.name : options.integrator;
@@ -75,7 +130,7 @@ void render_scene(const RenderOptions& options) {
   settings.seed = options.seed;
   Image image;
   {
-    const InterruptGuard guard;
+    heed_signals();
     ProgressBar bar(options.quiet);
     image = render(
         scene, geometry, settings,
@@ -86,14 +141,11 @@ void render_scene(const RenderOptions& options) {
         },
         &interrupted);
   }
-  for (const std::string& output : options.outputs) {
-    if (std::filesystem::path(output).extension() == ".exr") {
-      write_exr(output, image);
-    } else {
-      write_png(output, image, {options.exposure, options.tone == "none" ? Tone::none : Tone::filmic});
-    }
+  write_outputs(options, image);
+  if (interrupted) {
+    if (!options.quiet) std::fprintf(stderr, "stopped; the picture has the samples taken until then\n");
+    throw CLI::RuntimeError(128 + stopping_signal);
   }
-  if (interrupted && !options.quiet) std::fprintf(stderr, "stopped; the picture has the samples taken until then\n");
 }
 
 }  // namespace
@@ -101,8 +153,7 @@ void render_scene(const RenderOptions& options) {
 void add_render(CLI::App& app) {
   auto options = std::make_shared<RenderOptions>();
   CLI::App* command = app.add_subcommand("render", "Make a picture of a scene");
-  command->add_option("SCENE", options->scene, "A .scene.json, .glb or .gltf file")->required();
-  command->add_option("--medium", options->medium, "The air: a medium file, instead of the scene's own");
+  add_scene_arguments(*command, options->scene);
   command
       ->add_option("-o,--output", options->outputs,
                    "Where to write: .exr (all layers, linear) or .png (to look at); may be given twice")
@@ -115,19 +166,15 @@ void add_render(CLI::App& app) {
                    "path: all light, noisy at first; single: one scattering, no noise")
       ->check(CLI::IsMember(std::vector<std::string>(integrator_names.begin(), integrator_names.end())));
   command->add_option("--exposure", options->exposure, "Brighter (+) or darker (-) in stops, .png only (default 0)")
-      ->check(CLI::Range(-60.0, 60.0));
+      ->check(number_within(-60.0, 60.0));
   command->add_option("--tone", options->tone, "filmic (default): highlights roll off; none: cut at white; .png only")
       ->check(CLI::IsMember(std::vector<std::string>(tone_names.begin(), tone_names.end())));
-  command
-      ->add_option("--threads", options->threads, "Processor threads (default: all); the picture does not depend on it")
-      ->check(CLI::Range(1, 1024));
-  command->add_option("--seed", options->seed, "Another number gives other noise (default 1)");
+  add_threads(*command, options->threads);
+  add_seed(*command, options->seed);
   command->add_flag("--quiet", options->quiet, "No progress");
-  command->add_flag("--allow-path", options->allow_path,
-                    "Follow references to files outside the folder of the file that names them");
   command->footer(
       "A scene is a .scene.json, or a .glb or .gltf of any modelling program. Ctrl-C stops early and writes the "
-      "picture as it is.\n\n"
+      "picture as it is (exit code 130).\n\n"
       "Example: tyndall render examples/street.scene.json --medium examples/media/street_w100.medium.json -o "
       "street.png");
   command->callback([options] { render_scene(*options); });

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 
+#include "tyndall/cli/arguments.h"
 #include "tyndall/cli/commands.h"
 #include "tyndall/cli/table.h"
 #include "tyndall/document/medium_file.h"
@@ -33,27 +34,21 @@ double thickness_of(const std::string& text) {
   return metres;
 }
 
-OrderedJson written(const Spectrum& values) {
-  OrderedJson list = OrderedJson::array();
-  for (const double x : values.value) list.push_back(written_number(x));
-  return list;
-}
-
 void print_json(const SlabRequest& request, const SlabResult& result) {
   OrderedJson out = OrderedJson::object(), errors = OrderedJson::object();
   const auto put = [&](const char* key, const Estimate& e) {
-    out[key] = written(e.mean);
-    errors[key] = written(e.standard_error);
+    out[key] = written(e.mean.value);
+    errors[key] = written(e.standard_error.value);
   };
   put("reflectance", result.reflectance);
   put("transmittance_diffuse", result.transmittance_diffuse);
-  out["transmittance_direct"] = written(result.transmittance_direct);
+  out["transmittance_direct"] = written(result.transmittance_direct.value);
   if (!request.mu.empty()) {
     out["mu"] = request.mu;
     const auto list = [&](const char* key, const std::vector<Estimate>& estimates) {
       for (const Estimate& e : estimates) {
-        out[key].push_back(written(e.mean));
-        errors[key].push_back(written(e.standard_error));
+        out[key].push_back(written(e.mean.value));
+        errors[key].push_back(written(e.standard_error.value));
       }
     };
     list("reflection", result.reflection);
@@ -109,21 +104,20 @@ void add_slab(CLI::App& app) {
   command->add_option("MEDIUM", options->medium, "A medium file")->required();
   command->add_option("--thickness", options->thickness, "Thickness of the layer in metres, or inf")->required();
   command->add_option("--mu0", options->mu0, "Cosine of the beam to the vertical: 1 (default) is straight down")
-      ->check(CLI::Range(1e-6, 1.0));
+      ->check(number_within(1e-6, 1.0));
   command->add_option("--mu", options->mu, "Cosines at which to print the radiance that leaves")
       ->delimiter(',')
-      ->check(CLI::Range(1e-6, 1.0));
+      ->check(number_within(1e-6, 1.0));
   command->add_option("--ground", options->ground, "Albedo of the floor below; 0 (default) is black")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(number_within(0.0, 1.0));
   command
       ->add_option("--illumination", options->illumination, "beam (default), or diffuse: the same from the whole sky")
       ->check(CLI::IsMember({"beam", "diffuse"}));
   command
       ->add_option("--spp", options->spp, "Light paths to trace (default 1000000); four times as many halve the error")
       ->check(CLI::Range(1u, 4000000000u));
-  command->add_option("--seed", options->seed, "Another number gives other random paths (default 1)");
-  command->add_option("--threads", options->threads, "Processor threads (default: all); the result is the same")
-      ->check(CLI::Range(1, 1024));
+  add_seed(*command, options->seed);
+  add_threads(*command, options->threads);
   command->add_flag("--json", options->json, "Print one JSON object");
   command->footer(
       "A beam enters the top of a flat layer, black outside; all orders of scattering. Numbers are shares of the "

@@ -15,7 +15,7 @@
 #include "tyndall/document/medium_file.h"
 #include "tyndall/document/medium_summary.h"
 #include "tyndall/document/reference.h"
-#include "tyndall/document/text_file.h"
+#include "tyndall/document/whole_file.h"
 
 namespace tyndall {
 namespace {
@@ -252,7 +252,7 @@ TEST(MediumFile, IsWrittenWholeOrNotAtAll) {
   MediumFile impossible = harbour_fog();
   impossible.meters_per_unit = 0.0;
   EXPECT_THROW(write_medium_file(path, impossible), Fault);
-  EXPECT_EQ(read_text_file(path, 100), "old");
+  EXPECT_EQ(read_whole_text(path, 100), "old");
   EXPECT_THROW(write_medium_file(folder.path / "no" / "such" / "folder.medium.json", harbour_fog()), Fault);
   EXPECT_THROW(write_medium_file(folder.path, harbour_fog()), Fault);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator()), 1);  // no temporary is left

@@ -12,7 +12,7 @@ Fault::Fault(std::string where_, std::string found_, std::string expected_)
 }
 
 std::string place(const std::string& file, std::size_t line, const std::string& pointer) {
-  std::string text = printable(file);
+  std::string text = file.empty() ? in_quotes(file) : printable(file);
   if (line > 0) text += ":" + std::to_string(line);
   if (!pointer.empty()) text += ": at " + printable(pointer, 200);
   return text;

@@ -7,7 +7,7 @@
 
 #include "tyndall/document/json_locator.h"
 #include "tyndall/document/spelling.h"
-#include "tyndall/document/text_file.h"
+#include "tyndall/document/whole_file.h"
 
 namespace tyndall {
 namespace {
@@ -152,7 +152,7 @@ JsonText parse_json(std::string text, std::string name) {
 }
 
 JsonText read_json(const std::filesystem::path& file) {
-  return parse_json(read_text_file(file, largest_json), file.string());
+  return parse_json(read_whole_text(file, largest_json), file.string());
 }
 
 JsonCursor JsonCursor::at(std::string_view key) const {

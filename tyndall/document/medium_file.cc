@@ -1,7 +1,7 @@
 #include "tyndall/document/medium_file.h"
 
 #include "tyndall/document/binding.h"
-#include "tyndall/document/text_file.h"
+#include "tyndall/document/whole_file.h"
 
 namespace tyndall {
 namespace {
@@ -52,7 +52,7 @@ std::string medium_to_json(const MediumFile& file) { return pretty(written(file)
 void write_medium_file(const std::filesystem::path& file, const MediumFile& medium) {
   const std::string text = medium_to_json(medium);
   medium_from_json(text, file.string());
-  write_text_file(file, text);
+  write_whole_file(file, text);
 }
 
 }  // namespace tyndall

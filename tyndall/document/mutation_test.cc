@@ -8,7 +8,7 @@
 #include "tyndall/document/law_text.h"
 #include "tyndall/document/medium_file.h"
 #include "tyndall/document/medium_summary.h"
-#include "tyndall/document/text_file.h"
+#include "tyndall/document/whole_file.h"
 
 namespace tyndall {
 namespace {
@@ -31,7 +31,7 @@ std::vector<std::string> good_texts() {
   std::vector<std::string> texts;
   for (const auto& entry :
        std::filesystem::directory_iterator(std::filesystem::path(TYNDALL_SOURCE_DIR) / "examples" / "media")) {
-    texts.push_back(read_text_file(entry.path(), largest_json));
+    texts.push_back(read_whole_text(entry.path(), largest_json));
   }
   tests::Dice dice(31);
   for (int i = 0; i < 10; ++i) {

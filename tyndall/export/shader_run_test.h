@@ -30,10 +30,10 @@ class ShaderMachine {
     if (context_ == EGL_NO_CONTEXT || eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_FALSE)
       throw std::runtime_error("no OpenGL ES 3.1 context");
   }
+  // The display is not terminated: unloading Mesa's driver loses 128 bytes, which leak checkers report.
   ~ShaderMachine() {
     eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     eglDestroyContext(display_, context_);
-    eglTerminate(display_);
   }
   ShaderMachine(const ShaderMachine&) = delete;
   ShaderMachine& operator=(const ShaderMachine&) = delete;

@@ -9,7 +9,7 @@
 
 #include "tests/shared_folder.h"
 #include "tyndall/document/fault.h"
-#include "tyndall/image/whole_file.h"
+#include "tyndall/document/whole_file.h"
 
 namespace tyndall {
 namespace {

@@ -5,10 +5,10 @@
 #include <string_view>
 
 #include "tyndall/document/fault.h"
+#include "tyndall/document/whole_file.h"
 #include "tyndall/image/exr.h"
 #include "tyndall/image/radiance_picture.h"
 #include "tyndall/image/rehearsal.h"
-#include "tyndall/image/whole_file.h"
 
 namespace tyndall {
 namespace {

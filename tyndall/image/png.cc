@@ -5,7 +5,7 @@
 #include <string>
 
 #include "tyndall/document/fault.h"
-#include "tyndall/image/whole_file.h"
+#include "tyndall/document/whole_file.h"
 
 namespace tyndall {
 

@@ -7,8 +7,8 @@
 #include <random>
 
 #include "tyndall/document/fault.h"
+#include "tyndall/document/whole_file.h"
 #include "tyndall/image/decode.h"
-#include "tyndall/image/whole_file.h"
 
 namespace tyndall {
 namespace {

@@ -1,18 +1,14 @@
 #include "tyndall/image/rehearsal.h"
 
 #include <gtest/gtest.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <csignal>
 #include <cstdlib>
-#include <fstream>
-#include <random>
 #include <stdexcept>
 #include <vector>
 
 #include "tyndall/document/fault.h"
-#include "tyndall/image/whole_file.h"
 
 namespace tyndall {
 namespace {
@@ -73,24 +69,6 @@ TEST(Rehearsal, AppetiteForMemoryIsAFault) {
   EXPECT_NE(fault_of(eat, {std::uint64_t{256} << 20, 30}).find("too much memory"), std::string::npos);
 }
 #endif
-
-TEST(WholeFile, ReadsRegularFilesOnly) {
-  const std::filesystem::path folder =
-      std::filesystem::path(testing::TempDir()) / ("tyndall_whole" + std::to_string(std::random_device()()));
-  std::filesystem::create_directories(folder);
-  EXPECT_THROW(read_whole_file(folder), Fault);
-  EXPECT_THROW(read_whole_file(folder / "absent"), Fault);
-  EXPECT_THROW(read_whole_file("/dev/null"), Fault);
-  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
-  EXPECT_THROW(read_whole_file(folder / "pipe"), Fault);
-  const std::vector<std::uint8_t> bytes{0, 1, 2, 255};
-  write_whole_file(folder / "four", bytes);
-  EXPECT_EQ(read_whole_file(folder / "four"), bytes);
-  EXPECT_EQ(read_whole_file(folder / "four", 4), bytes);
-  EXPECT_THROW(read_whole_file(folder / "four", 3), Fault);
-  write_whole_file(folder / "four", {});
-  EXPECT_TRUE(read_whole_file(folder / "four").empty());
-}
 
 }  // namespace
 }  // namespace tyndall

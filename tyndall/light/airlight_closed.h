@@ -31,7 +31,8 @@ inline void airlight_moments(double u, double v0, double v1, std::span<Bounded> 
   if (u > 0.0) {
     const std::complex<double> near = scaled_exponential_integral({u * v0, -u});
     const std::complex<double> far = fade > 0.0 ? scaled_exponential_integral({u * v1, -u}) : 0.0;
-    const double error = 4e-15 * (std::abs(near) + fade * (1.0 + u * (v1 - v0)) * std::abs(far));
+    const auto size = [](const std::complex<double>& z) { return std::fabs(z.real()) + std::fabs(z.imag()); };
+    const double error = 4e-15 * (size(near) + fade * (1.0 + u * (v1 - v0)) * size(far));
     j = {near.imag() - fade * far.imag(), error};
     k = {near.real() - fade * far.real(), error};
   } else {

@@ -7,56 +7,13 @@
 
 #include "tyndall/number/dual.h"
 #include "tyndall/number/elementary.h"
+#include "tyndall/number/every_operation_test.h"
 #include "tyndall/number/field.h"
+#include "tyndall/number/instruction_set.h"
 #include "tyndall/number/symbol_value.h"
 
 namespace tyndall {
 namespace {
-
-// One text that uses every operation; smooth at the tested points.
-template <class T>
-std::vector<T> every_operation(const T& a, const T& b) {
-  std::vector<T> out{a + b,
-                     a - b,
-                     a * b,
-                     a / b,
-                     -a,
-                     sqrt(a),
-                     cbrt(a),
-                     exp(a),
-                     expm1(a),
-                     log(b),
-                     sin(a),
-                     cos(b),
-                     sinh(a),
-                     asinh(b),
-                     abs(a - b),
-                     abs(b - a),
-                     min(a, b),
-                     max(a, b),
-                     min(b, a),
-                     max(b, a),
-                     fma(a, b, a),
-                     select(a < b, a * a, b),
-                     select(a > b, a * a, b),
-                     select(a <= b, a, b * b),
-                     select(a >= b, a, b * b),
-                     with_sign_of(a, -b),
-                     with_sign_of(a, b),
-                     pi<T>() * a,
-                     inverse_four_pi<T>() + b,
-                     named("product", a * b) + 1.0};
-  T sum = a;
-  sum += b;
-  sum *= a;
-  sum -= b;
-  out.push_back(sum);
-  const auto newton = [&](const std::array<T, 2>& state) -> std::array<T, 2> {
-    return {T(0.5) * (state[0] + a / state[0]), state[1] + b * state[0]};
-  };
-  for (const T& x : iterate(5, std::array<T, 2>{b, a}, newton)) out.push_back(x);
-  return out;
-}
 
 TEST(Dual, CarriesTheDerivativeThroughEveryOperation) {
   using D = Dual<double, 2>;
@@ -138,6 +95,36 @@ TEST(Elementary, KeepsItsDigitsInFloat) {
   EXPECT_EQ(asinh_from_log(0.0F), 0.0F);
   EXPECT_EQ(cbrt_from_exp(0.0F), 0.0F);
 }
+
+#if TYNDALL_HAS_XSIMD
+extern "C" {
+void lanes_check_baseline(const float*, const float*, float*, std::size_t);
+void lanes_check_avx2(const float*, const float*, float*, std::size_t);
+void lanes_check_avx512(const float*, const float*, float*, std::size_t);
+}
+
+TEST(Lanes, ComputeWhatFloatComputes) {
+  constexpr std::size_t count = 64;  // a multiple of every lane count
+  alignas(64) float a[count], b[count];
+  for (std::size_t i = 0; i < count; ++i) {
+    a[i] = 1e-4F * std::exp2(0.23F * static_cast<float>(i));
+    b[i] = 0.7F + 0.01F * static_cast<float>((i * 37) % count);
+  }
+  for (const InstructionSet set : {InstructionSet::baseline, InstructionSet::avx2, InstructionSet::avx512}) {
+    if (set > best_instruction_set()) continue;
+    const std::size_t operations = every_operation(a[0], b[0]).size();
+    std::vector<float> found(count * operations);
+    choose_kernel(set, lanes_check_baseline, lanes_check_avx2, lanes_check_avx512)(a, b, found.data(), count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto expected = every_operation(static_cast<double>(a[i]), static_cast<double>(b[i]));
+      for (std::size_t k = 0; k < operations; ++k) {
+        EXPECT_NEAR(static_cast<double>(found[k * count + i]), expected[k], 1e-6 * std::fabs(expected[k]))
+            << name_of(set) << ", operation " << k << " of " << a[i] << ", " << b[i];
+      }
+    }
+  }
+}
+#endif
 
 TEST(Range, AnOpenEndIsOutside) {
   const Range open{-1.0, 1.0, true, true};

@@ -4,8 +4,9 @@
 
 namespace tyndall {
 
-/// The deflection with cdf(lobes, d) = xi, xi in [0, 1]; xi = 0 gives mu = -1, and the result never decreases with xi.
-/// xi is 0 or at least 1e-12 (float) or 1e-100 (double); where the lobes leave a gap in mu, rounding of F decides.
+/// The deflection with cdf(lobes, d) = xi, xi in [0, 1]; xi = 0 gives mu = -1, and the result never decreases with xi
+/// (but for rounding in the last digits). xi is 0 or at least 1e-12 (float) or 1e-100 (double); where the lobes leave a
+/// gap in mu, rounding of F decides.
 ///
 /// A mixture's quantile lies between the least and the greatest quantile of its parts, which brackets the root. In the
 /// log-odds s = ln((1 + mu)/(1 - mu)) the log-odds of F are nearly straight toward both ends and bent only where one

@@ -5,15 +5,15 @@
 namespace tyndall {
 
 double SampleFilm::noise() const {
-  double error = 0.0, signal = 0.0;
+  double mean = 0.0;
+  for (const Pixel& p : pixels_) mean += luminance(mean_beauty(p)) / static_cast<double>(pixels_.size());
+  if (!(mean > 0.0)) return 0.0;
+  double noise = 0.0;
   for (const Pixel& p : pixels_) {
-    const double mean = luminance(mean_beauty(p));
-    signal += mean * mean;
-    const Spectrum v = variance_of_mean(p);
-    const double spread = luminance(map(v, [](double x) { return std::sqrt(x); }));
-    error += spread * spread;
+    const double error = luminance(map(variance_of_mean(p), [](double x) { return std::sqrt(x); }));
+    noise += error / (luminance(mean_beauty(p)) + 0.02 * mean);
   }
-  return signal > 0.0 ? std::sqrt(error / signal) : 0.0;
+  return noise / static_cast<double>(pixels_.size());
 }
 
 Image SampleFilm::develop() const {

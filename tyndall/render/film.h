@@ -52,8 +52,7 @@ class SampleFilm {
     pixel.beauty_squared = mean_beauty(pixel) * mean_beauty(pixel);
   }
 
-  /// Root mean square of the standard error over that of the picture, in luminance: one figure for how noisy it still
-  /// is.
+  /// Mean over the pixels of standard error / (value + 2 % of the picture's mean), in luminance: how noisy it looks.
   double noise() const;
 
   /// The layers of an image file: beauty, single, surface, multiple, transmittance, depth.Z, variance. Pixels without

@@ -50,41 +50,38 @@ class LampSegment {
     }
   }
 
-  /// Chooses among all lamps and samples a distance. The promise of each lamp is tabulated when `careful`, else guessed
-  /// from one point.
-  Sample sample(const std::vector<Lamp>& lamps, bool careful, double xi_lamp, double xi_choice, double xi) {
+  /// Estimates what each lamp throws on the segment: from a table when `careful`, else guessed from one point.
+  void promise(const std::vector<Lamp>& lamps, bool careful) {
     candidates_.clear();
     tables_.clear();
-    double promise = 0.0;
+    promise_ = 0.0;
     for (std::size_t i = 0; i < lamps.size(); ++i) {
       const Approach at = approach(lamps[i]);
       if (at.range.empty()) continue;
-      double worth;
-      if (careful) {
-        tables_.push_back(table(lamps[i], at));
-        worth = tables_.back().integral();
-      } else {
-        worth = guess(lamps[i], at);
-      }
-      candidates_.push_back({i, at, worth});
-      promise += worth;
+      if (careful) tables_.push_back(table(lamps[i], at));
+      candidates_.push_back({i, at, careful ? tables_.back().integral() : guess(lamps[i], at)});
+      promise_ += candidates_.back().worth;
     }
+  }
+
+  /// Chooses among the lamps by their promise and samples a distance; density 0 where no lamp lights the segment.
+  Sample sample(const std::vector<Lamp>& lamps, double xi_lamp, double xi_choice, double xi) const {
     if (candidates_.empty()) return {0, 0.0, 0.0};
     // A twentieth of the choices is even: lamps that seemed to promise nothing keep a chance.
-    const double even = (promise > 0.0 ? 0.05 : 1.0) / static_cast<double>(candidates_.size());
+    const double even = (promise_ > 0.0 ? 0.05 : 1.0) / static_cast<double>(candidates_.size());
     const auto chance = [&](std::size_t k) {
-      return even + (promise > 0.0 ? 0.95 * candidates_[k].worth / promise : 0.0);
+      return even + (promise_ > 0.0 ? 0.95 * candidates_[k].worth / promise_ : 0.0);
     };
     std::size_t k = 0;
     while (k + 1 < candidates_.size() && xi_lamp >= chance(k)) xi_lamp -= chance(k++);
     const Candidate& chosen = candidates_[k];
     const DistanceTable::Sample at =
-        careful ? tables_[k].sample(xi_choice, xi) : table(lamps[chosen.lamp], chosen.at).sample(xi_choice, xi);
+        tables_.empty() ? table(lamps[chosen.lamp], chosen.at).sample(xi_choice, xi) : tables_[k].sample(xi_choice, xi);
     return {chosen.lamp, at.t, at.density * chance(k)};
   }
 
   /// Samples a distance for one lamp; density 0 where it throws no light on the segment.
-  Sample sample(const std::vector<Lamp>& lamps, std::size_t lamp, double xi_choice, double xi) {
+  Sample sample_one(const std::vector<Lamp>& lamps, std::size_t lamp, double xi_choice, double xi) const {
     const Approach at = approach(lamps[lamp]);
     if (at.range.empty()) return {lamp, 0.0, 0.0};
     const DistanceTable::Sample sample = table(lamps[lamp], at).sample(xi_choice, xi);
@@ -181,7 +178,8 @@ class LampSegment {
   std::vector<Part> parts_;
   std::vector<GreyLobe> lobes_;
   std::vector<Candidate> candidates_;
-  std::vector<DistanceTable> tables_;
+  std::vector<DistanceTable> tables_;  // of the candidates, when they were made with care
+  double promise_ = 0.0;
 };
 
 }  // namespace tyndall

@@ -5,21 +5,12 @@
 #include "tyndall/render/bsdf.h"
 #include "tyndall/render/lamp_aim.h"
 #include "tyndall/render/lamp_segment.h"
-#include "tyndall/render/parallel.h"
-#include "tyndall/render/path_lights.h"
+#include "tyndall/render/path_prepared.h"
 
 namespace tyndall {
 
-struct PathContext::Prepared {
-  const Scene& scene;
-  const Geometry& geometry;
-  LoweredMedium medium;
-  PathLights lights;
-  int max_depth;
-};
-
-PathContext::PathContext(const Scene& scene, const Geometry& geometry, int max_depth)
-    : prepared_(new Prepared{scene, geometry, lower(scene.medium), PathLights(scene), max_depth}) {}
+PathContext::PathContext(const Scene& scene, const Geometry& geometry, int max_depth, double follow_through)
+    : prepared_(new Prepared{scene, geometry, lower(scene.medium), PathLights(scene), max_depth, follow_through}) {}
 PathContext::~PathContext() = default;
 
 namespace {
@@ -131,29 +122,36 @@ struct PathTracer::State {
   }
 
   /// Russian roulette. By promise: throughput times the light to be had where the walk is, relative to where it began;
-  /// its weight never grows beyond what that promise has lost. And by depth, each time the number of events has
-  /// doubled: later orders are smoother, so fewer walks tell as much of them, and since weights grow no faster than a
-  /// root of the depth, variance stays bounded wherever light is ever lost.
+  /// its weight never grows beyond what that promise has lost. By depth (PathContext, follow_through): weights grow no
+  /// faster than the depth, so variance stays bounded wherever light is lost. Last resort against endless walks: after
+  /// 256 events, blindly.
   double survival_of(const Walk& walk) const {
     const double promise = largest(walk.beta) * context.lights.promise_at(walk.ray.origin) / walk.first_promise;
     const int depth = walk.depth();
     const bool doubled = depth >= 2 && (depth & (depth - 1)) == 0;
-    return std::clamp(2.0 * promise, 0.1, 1.0) * (doubled ? 0.5 : 1.0);
+    return std::clamp(2.0 * promise, 0.1, depth > 256 ? 0.98 : 1.0) * (doubled ? context.follow_through : 1.0);
   }
 
   /// Light of point and spot lamps scattered toward the walk from its segment [0, end], whatever happens to the walk
-  /// later: one lamp, one distance, both chosen by what they promise.
+  /// later: a lamp and a distance, both chosen by what they promise. The eye's own segment, which everything seen hangs
+  /// on, gets several, with the choices of the lamp spread evenly.
   void lamps_along(const Walk& walk, double end, RandomStream& random) {
     if (stretches.empty() || context.lights.lamps.empty()) return;
     segment.set(context.medium, stretches, walk.ray, end, walk.beta);
-    const double xi[3] = {random.next(), random.next(), random.next()};
-    const LampSegment::Sample at = segment.sample(context.lights.lamps, walk.depth() == 0, xi[0], xi[1], xi[2]);
-    double weight = 1.0;
-    if (walk.direction_density > 0.0) {
-      const double other = walk.aim.tries() * walk.aim.density(context.lights.lamps, at.lamp, walk.ray);
-      weight = balance(walk.direction_density, other);
+    const bool eye = walk.depth() == 0;
+    const int count = eye ? 4 : 1;
+    const double offset = random.next();
+    segment.promise(context.lights.lamps, eye);
+    for (int i = 0; i < count; ++i) {
+      const double xi_choice = random.next(), xi = random.next();
+      const LampSegment::Sample at = segment.sample(context.lights.lamps, (i + offset) / count, xi_choice, xi);
+      double weight = 1.0 / count;
+      if (walk.direction_density > 0.0) {
+        const double other = walk.aim.tries() * walk.aim.density(context.lights.lamps, at.lamp, walk.ray);
+        weight *= balance(walk.direction_density, other);
+      }
+      add(walk, walk.beta * airlight(walk.ray, end, at) * weight, 1, 0);
     }
-    add(walk, walk.beta * airlight(walk.ray, end, at) * weight, 1, 0);
   }
 
   /// Light of a lamp scattered back along the ray of `stretches` at a sampled distance, over the sample's density.
@@ -195,7 +193,7 @@ struct PathTracer::State {
       stretches_along(context.medium, around_lamp, end, stretches);
       if (own > 0.0 && !stretches.empty()) {
         segment.set(context.medium, stretches, around_lamp, end, f);
-        const LampSegment::Sample at = segment.sample(lamps, lamp, xi[3], xi[4]);
+        const LampSegment::Sample at = segment.sample_one(lamps, lamp, xi[3], xi[4]);
         const double weight = balance(own, density(around_lamp.direction)) / own;
         add(walk, f * airlight(around_lamp, end, at) * weight, scatterings + 1, bounces);
       }
@@ -332,95 +330,6 @@ struct PathTracer::State {
     for (const SunLight& sun : context.lights.suns) add(walk, walk.beta * sun_disc(sun, walk.ray.direction), 0, 0);
   }
 };
-
-namespace {
-
-constexpr std::uint32_t block_samples = 256;
-
-/// The mean of `spp` samples of draw(tracer, number), summed in fixed blocks.
-template <class Draw>
-ProbeEstimate average(const PathContext& context, std::uint32_t spp, int threads, Draw draw) {
-  const std::size_t blocks = (spp + block_samples - 1) / block_samples;
-  std::vector<Spectrum> sums(blocks), squares(blocks);
-  std::vector<std::unique_ptr<PathTracer>> tracers;
-  for (int i = 0; i < thread_count(threads); ++i) tracers.push_back(std::make_unique<PathTracer>(context));
-  for_each_block(blocks, thread_count(threads), [&](std::size_t block, int thread) {
-    const auto first = static_cast<std::uint32_t>(block) * block_samples;
-    for (std::uint32_t i = first; i < std::min(spp, first + block_samples); ++i) {
-      const Spectrum x = draw(*tracers[static_cast<std::size_t>(thread)], i);
-      sums[block] += x;
-      squares[block] += x * x;
-    }
-  });
-  Spectrum sum, square;
-  for (std::size_t block = 0; block < blocks; ++block) sum += sums[block], square += squares[block];
-  const double n = spp;
-  ProbeEstimate estimate{sum / n, {}, {}};
-  const Spectrum variance = (square / n - estimate.radiance * estimate.radiance) / std::max(1.0, n - 1.0);
-  estimate.standard_error = map(variance, [](double x) { return std::sqrt(std::max(0.0, x)); });
-  return estimate;
-}
-
-}  // namespace
-
-ProbeEstimate path_probe(const PathContext& context, const Ray& ray, double distance, std::uint32_t spp,
-                         std::uint64_t seed, int threads) {
-  ProbeEstimate estimate = average(context, spp, threads, [&](PathTracer& tracer, std::uint32_t i) {
-    RandomStream random(seed, 0, i);
-    return tracer.trace(ray, distance, random).beauty();
-  });
-  const auto hit = context.prepared().geometry.intersect(ray);
-  std::vector<Stretch> scratch;
-  estimate.transmittance =
-      transmittance(context.prepared().medium, ray, std::min(distance, hit ? hit->t : infinity), scratch);
-  return estimate;
-}
-
-ProbeEstimate path_fluence(const PathContext& context, const Vector& point, std::uint32_t spp, std::uint64_t seed,
-                           int threads) {
-  const PathContext::Prepared& scene = context.prepared();
-  std::vector<Vector> toward;  // lamps: radiance near one goes as 1/angle, so half of the directions go there as 1/sin
-  for (const Lamp& lamp : scene.lights.lamps) {
-    if (length_squared(lamp.position - point) > 0.0) toward.push_back(normalized(lamp.position - point));
-  }
-  const double even = 1.0 / (4.0 * std::numbers::pi);
-  ProbeEstimate estimate = average(context, spp, threads, [&](PathTracer& tracer, std::uint32_t i) {
-    RandomStream random(seed, 0, i);
-    const double pick = random.next(), xi1 = random.next(), xi2 = random.next();
-    Vector direction;
-    if (toward.empty() || pick < 0.5) {
-      direction = sample_sphere(xi1, xi2);
-    } else {
-      const auto lamp = std::min(toward.size() - 1,
-                                 static_cast<std::size_t>((2.0 * pick - 1.0) * static_cast<double>(toward.size())));
-      const double angle = std::numbers::pi * xi1;
-      direction = around(Frame::around(toward[lamp]), std::cos(angle), std::sin(angle), xi2);
-    }
-    double density = toward.empty() ? even : 0.5 * even;
-    for (const Vector& lamp : toward) {
-      const double sine = deflection_between(lamp, direction).sine();
-      density += 0.5 / (2.0 * std::numbers::pi * std::numbers::pi * std::max(sine, 1e-12) *
-                        static_cast<double>(toward.size()));
-    }
-    return tracer.trace({point, normalized(direction)}, infinity, random, false).beauty() / density;
-  });
-  std::vector<Stretch> scratch;
-  const auto visible = [&](const Ray& ray, double distance) {
-    return scene.geometry.occluded(ray, distance) ? Spectrum{} : transmittance(scene.medium, ray, distance, scratch);
-  };
-  for (const Lamp& lamp : scene.lights.lamps) {
-    const Vector way = lamp.position - point;
-    const double distance = length(way);
-    if (distance == 0.0) continue;
-    const Ray ray{point, way / distance};
-    estimate.radiance += lamp.intensity_toward(-ray.direction) / (distance * distance) * visible(ray, distance);
-  }
-  for (const SunLight& sun : scene.lights.suns) {
-    estimate.radiance += sun.irradiance * visible({point, -normalized(sun.direction)}, infinity);
-  }
-  estimate.transmittance = transmittance(scene.medium, {point, {0.0, 1.0, 0.0}}, infinity, scratch);
-  return estimate;
-}
 
 PathTracer::PathTracer(const PathContext& context) : state_(new State(context.prepared())) {}
 PathTracer::~PathTracer() = default;

@@ -42,11 +42,11 @@ TEST(PathTruth, FluenceOfAPointSourceInInfiniteMedium) {
     scene.medium = medium_of(Spectrum::grey(albedo), Spectrum::grey(1.0 - albedo), Isotropic<double>{});
     scene.points.push_back({{0, 0, 0}, Spectrum::grey(1.0 / (4.0 * std::numbers::pi))});
     const Geometry geometry(scene);
-    const PathContext context(scene, geometry);
+    const PathContext context(scene, geometry, 0, 1.0);
     const ProbeEstimate e = path_fluence(context, {r, 0, 0}, 100000, 11);
     expect_within(4.0, e, Spectrum::grey(number(item["fluence"])),
                   "albedo " + item["albedo"].dump() + " r " + item["r"].dump());
-    EXPECT_LT(e.standard_error[0], 0.06 * e.radiance[0]);
+    EXPECT_LT(e.standard_error[0], 0.05 * e.radiance[0]);
   }
 }
 
@@ -167,8 +167,10 @@ std::vector<Plane> planes_with(int threads, std::uint32_t tile_order, const Scen
 }
 
 TEST(Render, ThePictureDoesNotDependOnThreadsOrTileOrder) {
-  const Scene scene = tests::busy_scene();
+  Scene scene = tests::busy_scene();
   for (const char* integrator : {"path", "single"}) {
+    if (integrator == std::string("single"))
+      scene.film = {6, 4};  // its fixed quadratures of sky and panel take their time
     const std::vector<Plane> one = planes_with(1, 0, scene, integrator);
     ASSERT_EQ(one.size(), 19u);
     for (const auto& [threads, order] : {std::pair{2, 0u}, {3, 0u}, {7, 0u}, {2, 42u}, {7, 7u}}) {

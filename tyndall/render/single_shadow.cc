@@ -17,23 +17,26 @@ namespace {
 
 /// Shadow on the wedge's ray of a triangle; empty when it misses the wedge's plane.
 Interval shadow_of(const std::array<std::array<float, 3>, 3>& triangle, const Wedge& wedge) {
-  std::array<Vector, 3> corner;
+  const Interval none{0.0, 0.0};
+  std::array<Vector, 3> from;
+  std::array<double, 3> height;  // above the plane
   for (std::size_t i = 0; i < 3; ++i) {
-    const Vector p = vector_of(triangle[i]) - wedge.origin;
-    corner[i] = {dot(p, wedge.x), dot(p, wedge.y), dot(p, wedge.z)};
+    from[i] = vector_of(triangle[i]) - wedge.origin;
+    height[i] = dot(from[i], wedge.z);
   }
   // Corners on the plane count as above it, for all triangles alike: closed surfaces then cut in closed lines.
+  const bool above[3] = {height[0] >= 0.0, height[1] >= 0.0, height[2] >= 0.0};
+  if (above[0] == above[1] && above[1] == above[2]) return none;
   std::array<Point2, 2> cut;
   std::size_t cuts = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Vector &a = corner[i], &b = corner[(i + 1) % 3];
-    if ((a.z >= 0.0) == (b.z >= 0.0)) continue;
-    const Vector &p = a.z < b.z ? a : b, &q = a.z < b.z ? b : a;  // the same arithmetic for both triangles of an edge
-    const double s = p.z / (p.z - q.z);
-    cut[cuts++] = {p.x + s * (q.x - p.x), p.y + s * (q.y - p.y)};
+    const std::size_t j = (i + 1) % 3;
+    if (above[i] == above[j]) continue;
+    // The same arithmetic for both triangles of an edge.
+    const std::size_t p = height[i] < height[j] ? i : j, q = p == i ? j : i;
+    const Vector at = from[p] + (from[q] - from[p]) * (height[p] / (height[p] - height[q]));
+    cut[cuts++] = {dot(at, wedge.x), dot(at, wedge.y)};
   }
-  const Interval none{0.0, 0.0};
-  if (cuts != 2) return none;
   Point2 low = cut[0], high = cut[1];
   if (low.y > high.y) std::swap(low, high);
   if (high.y <= 0.0 || (!wedge.far && low.y >= wedge.aside)) return none;
@@ -45,7 +48,7 @@ Interval shadow_of(const std::array<std::array<float, 3>, 3>& triangle, const We
     // What passes through the lamp is what the lamp stands on: seen from there it is edge-on and throws no shadow.
     const double dx = high.x - low.x, dy = high.y - low.y, lx = wedge.along - low.x, ly = wedge.aside - low.y;
     const double size = std::fabs(lx) + std::fabs(ly) + std::fabs(wedge.along) + wedge.aside;
-    if (std::fabs(dx * ly - dy * lx) <= 1e-10 * size * std::hypot(dx, dy)) return none;
+    if (std::fabs(dx * ly - dy * lx) <= 1e-10 * size * (std::fabs(dx) + std::fabs(dy))) return none;
     if (high.y < wedge.aside) {
       top = wedge.projected(high.x, high.y);
     } else {

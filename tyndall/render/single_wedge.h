@@ -16,7 +16,7 @@ struct Wedge {
   double aside = 0.0;  // far: 0
   double slope = 0.0;  // far: towards (slope, 1)
   Interval range;      // of the ray
-  std::array<std::pair<Vector, double>, 6> halves;  // normals and offsets: inside is dot(normal, p) >= offset
+  std::array<std::pair<Vector, double>, 4> halves;  // within the plane: inside is dot(normal, p) >= offset
   std::size_t half_count = 0;
 
   static Wedge toward_lamp(const Ray& ray, const Interval& range, const Vector& lamp) {
@@ -41,15 +41,19 @@ struct Wedge {
   }
 
   bool misses(const Box& box, double slack = 0.0) const {
+    const Vector center = (box.low + box.high) * 0.5, half = (box.high - box.low) * 0.5;
+    const auto reach = [&](const Vector& n) {
+      return std::fabs(n.x) * half.x + std::fabs(n.y) * half.y + std::fabs(n.z) * half.z;
+    };
+    if (std::fabs(dot(center - origin, z)) > reach(z) + slack) return true;
     for (std::size_t i = 0; i < half_count; ++i) {
-      const Vector& n = halves[i].first;
-      const Vector furthest{n.x > 0.0 ? box.high.x : box.low.x, n.y > 0.0 ? box.high.y : box.low.y,
-                            n.z > 0.0 ? box.high.z : box.low.z};
-      if (dot(n, furthest) < halves[i].second - slack) return true;
+      const auto& [normal, offset] = halves[i];
+      if (dot(normal, center) + reach(normal) < offset - slack) return true;
     }
     return false;
   }
   bool misses(const Sphere& sphere) const {
+    if (std::fabs(dot(sphere.center - origin, z)) > sphere.radius) return true;
     for (std::size_t i = 0; i < half_count; ++i) {
       if (dot(halves[i].first, sphere.center) + sphere.radius < halves[i].second) return true;
     }
@@ -76,8 +80,6 @@ struct Wedge {
       const Vector n = x * nx + y * ny + z * nz;
       halves[half_count++] = {n, dot(n, origin) + nx * px + ny * py};
     };
-    add(0, 0, 1, 0, 0);
-    add(0, 0, -1, 0, 0);
     if (!flat) return;
     add(0, 1, 0, 0, 0);
     if (!far) add(0, -1, 0, along, aside);

@@ -6,8 +6,8 @@
 #include <set>
 
 #include "tyndall/document/spelling.h"
+#include "tyndall/document/whole_file.h"
 #include "tyndall/image/rehearsal.h"
-#include "tyndall/image/whole_file.h"
 #include "tyndall/scene/gltf_material.h"
 #include "tyndall/scene/gltf_model.h"
 #include "tyndall/scene/transform.h"

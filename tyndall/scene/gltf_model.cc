@@ -9,7 +9,7 @@
 #include "tyndall/document/json_locator.h"
 #include "tyndall/document/reference.h"
 #include "tyndall/document/spelling.h"
-#include "tyndall/image/whole_file.h"
+#include "tyndall/document/whole_file.h"
 
 namespace tyndall {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "tests/shared_folder.h"
 #include "tyndall/document/fault.h"
+#include "tyndall/document/whole_file.h"
 #include "tyndall/image/png.h"
-#include "tyndall/image/whole_file.h"
 #include "tyndall/scene/glb_fixture.h"
 #include "tyndall/scene/scene_file.h"
 #include "tyndall/scene/transform.h"

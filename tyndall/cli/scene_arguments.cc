@@ -1,0 +1,23 @@
+#include "tyndall/cli/scene_arguments.h"
+
+#include <iostream>
+
+#include "tyndall/scene/scene_file.h"
+
+namespace tyndall {
+
+void add_scene_arguments(CLI::App& command, SceneArguments& arguments) {
+  command.add_option("SCENE", arguments.scene, "A .scene.json, .glb or .gltf file")->required();
+  command.add_option("--medium", arguments.medium, "The air: a medium file, instead of the scene's own");
+  command.add_flag("--allow-path", arguments.allow_path,
+                   "Follow references to files outside the folder of the file that names them");
+}
+
+Scene scene_of(const SceneArguments& arguments) {
+  if (arguments.medium && arguments.medium->empty()) throw Fault("--medium", "an empty name", "the name of a file");
+  Scene scene = read_scene(arguments.scene, {arguments.medium.value_or(""), arguments.allow_path});
+  for (const std::string& warning : scene.warnings) std::cerr << "warning: " << warning << '\n';
+  return scene;
+}
+
+}  // namespace tyndall

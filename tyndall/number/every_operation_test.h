@@ -1,0 +1,54 @@
+#pragma once
+// One text that uses everything a number must do, for comparing numbers with each other.
+#include <vector>
+
+#include "tyndall/number/scalar.h"
+
+namespace tyndall {
+
+/// Smooth in a and b where they differ and are positive.
+template <class T>
+std::vector<T> every_operation(const T& a, const T& b) {
+  std::vector<T> out{a + b,
+                     a - b,
+                     a * b,
+                     a / b,
+                     -a,
+                     sqrt(a),
+                     cbrt(a),
+                     exp(a),
+                     expm1(a),
+                     log(b),
+                     sin(a),
+                     cos(b),
+                     sinh(a),
+                     asinh(b),
+                     abs(a - b),
+                     abs(b - a),
+                     min(a, b),
+                     max(a, b),
+                     min(b, a),
+                     max(b, a),
+                     fma(a, b, a),
+                     select(a < b, a * a, b),
+                     select(a > b, a * a, b),
+                     select(a <= b, a, b * b),
+                     select(a >= b, a, b * b),
+                     with_sign_of(a, -b),
+                     with_sign_of(a, b),
+                     pi<T>() * a,
+                     inverse_four_pi<T>() + b,
+                     named("product", a * b) + T(1.0)};
+  T sum = a;
+  sum += b;
+  sum *= a;
+  sum -= -b;
+  out.push_back(sum);
+  const auto newton = [&](const std::array<T, 2>& state) -> std::array<T, 2> {
+    return {T(0.5) * (state[0] + a / state[0]), state[1] + b * state[0]};
+  };
+  for (const T& x : iterate(5, std::array<T, 2>{b, a}, newton)) out.push_back(x);
+  return out;
+}
+
+}  // namespace tyndall
