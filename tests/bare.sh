@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# bare.sh [--working-tree] [--configure-only]: proves `make demo` and `make test` on bare Debian 12, and prints times.
+# bare.sh [--working-tree] [GOAL..]: proves `make demo` and `make test` (or the goals named) on bare Debian 12, and
+# prints times.
 #
 # A debootstrap minbase chroot with make, git and ca-certificates, nothing of this machine bound into it; a clean clone
-# of HEAD (or, with --working-tree, of the files as they are) is copied in, and the two commands are run there. From
+# of HEAD (or, with --working-tree, of the files as they are) is copied in, and the commands are run there. From
 # this machine come only the names of its Debian mirror and proxy (apt's own configuration) and its name servers.
 # Needs root, debootstrap, 4 GB in $TMPDIR (/var/tmp) and some minutes. CORES=0,1 in the environment restricts the run
 # to those processors. KEEP=1 keeps the chroot. Exit code: that of the first command that failed.
@@ -17,14 +18,15 @@ shift
 
 source_tree=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 from=head
-commands=(demo test)
+commands=()
 for argument in "$@"; do
   case "$argument" in
     --working-tree) from=files ;;
-    --configure-only) commands=(configure) ;;
-    *) echo "usage: bare.sh [--working-tree] [--configure-only]" >&2; exit 2 ;;
+    -*) echo "usage: bare.sh [--working-tree] [GOAL..]" >&2; exit 2 ;;
+    *) commands+=("$argument") ;;
   esac
 done
+[ ${#commands[@]} -gt 0 ] || commands=(demo test)
 
 root=$(mktemp -d "${TMPDIR:-/var/tmp}/tyndall-bare.XXXXXX")
 chmod 755 "$root"  # apt fetches as a user of its own
@@ -84,10 +86,8 @@ for command in "${commands[@]}"; do
   if awk -v a="$installed" -v b="$begin" 'BEGIN { exit !(a < b) }'; then installed=$begin; fi
   configured=$(written root/tyndall/build/build.ninja "$installed")
   built=$(written root/tyndall/build/.ninja_log "$configured")
-  summary="make $command: install $(since "$begin" "$installed"), configure $(since "$installed" "$configured")"
-  [ "$command" = configure ] ||
-    summary+=", build $(since "$configured" "$built"), then $(since "$built" "$end"); $(since "$begin" "$end") in all"
-  results+=("$summary")
+  results+=("make $command: install $(since "$begin" "$installed"), configure $(since "$installed" "$configured"), build \
+$(since "$configured" "$built"), then $(since "$built" "$end"); $(since "$begin" "$end") in all")
   [ "$status" = 0 ] || break
 done
 

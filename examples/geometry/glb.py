@@ -162,6 +162,30 @@ class Mesh:
             self.polygon(material, rings[0])
             self.polygon(material, rings[-1][::-1])
 
+    def turned(self, material, profile, sides, centre=(0.0, 0.0)):
+        """A smooth solid of revolution about the vertical through `centre` (x, z), for materials without texture.
+
+        profile: (radius, height) from the floor up; radius 0 is a tip.
+        """
+        surface = self.surface(material)
+        first = len(surface.positions)
+        for k, (radius, height) in enumerate(profile):
+            below, above = profile[max(k - 1, 0)], profile[min(k + 1, len(profile) - 1)]
+            out, up = above[1] - below[1], below[0] - above[0]
+            size = math.hypot(out, up)
+            for side in range(sides):
+                angle = 2 * math.pi * side / sides
+                cosine, sine = math.cos(angle), -math.sin(angle)
+                surface.positions.append((centre[0] + radius * cosine, height, centre[1] + radius * sine))
+                surface.normals.append((out * cosine / size, up / size, out * sine / size))
+        for k in range(len(profile) - 1):
+            for side in range(sides):
+                a, b = first + k * sides + side, first + k * sides + (side + 1) % sides
+                if profile[k][0] > 0.0:
+                    surface.indices += [a, b, b + sides]
+                if profile[k + 1][0] > 0.0:
+                    surface.indices += [a, b + sides, a + sides]
+
 
 def planar_uv(point, normal, tile):
     """Texture coordinates in repeats; v grows downward, as in glTF."""

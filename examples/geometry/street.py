@@ -25,7 +25,7 @@ FACADE = ROAD + PAVEMENT
 LAMP_HEIGHT = 6.9
 LAMP_REACH = 1.7
 SODIUM = (1.0, 0.64, 0.31)
-LAMP_INTENSITY = 85.0  # W/sr, of the channel that is strongest
+LAMP_INTENSITY = 72.0  # W/sr, of the channel that is strongest
 # (side, z), staggered; the first stands behind the camera's right shoulder and lights the foreground.
 LAMPS = [(1, -4.0)] + [(side, z) for k in range(5) for side, z in ((-1, -20.0 - 32.0 * k), (1, -36.0 - 32.0 * k))]
 

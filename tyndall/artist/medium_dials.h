@@ -51,7 +51,8 @@ inline std::variant<Medium, Objection> compile(const MediumDials& dials) {
                         others.species.end());
   for (const Species& s : medium.species) {
     const double here = factor(s, {});
-    if (!is_finite(s.extinction()) || !is_finite(s.extinction() * here)) {
+    // Up to 1e30 1/m, products with a scene's lengths and lights stay within double precision.
+    if (!(largest(s.extinction()) <= 1e30 && largest(s.extinction() * here) <= 1e30)) {
       return Objection{"", "a species too dense for double precision", "less of it, or a taller profile"};
     }
   }

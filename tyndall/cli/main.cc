@@ -64,7 +64,7 @@ int run(int argc, char** argv) {
     return ended.get_exit_code();
   } catch (const CLI::ParseError& error) {
     const std::string hint = command_hint(app, argc, argv);
-    return complain(unusable_request, hint.empty() ? error.what() + std::string(" (see --help)") : hint);
+    return complain(unusable_request, hint.empty() ? printable(error.what()) + " (see --help)" : hint);
   }
   if (!std::cout.flush()) return complain(internal_failure, "the output could not be written");
   return 0;

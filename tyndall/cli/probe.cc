@@ -114,7 +114,7 @@ void add_probe(CLI::App& app) {
   command
       ->add_option("--integrator", options->integrator,
                    "single (default): light scattered at most once, exact; path: all light, with a standard error")
-      ->check(CLI::IsMember({"single", "path"}));
+      ->check(CLI::IsMember(std::vector<std::string>(integrator_names.begin(), integrator_names.end())));
   command->add_option("--spp", options->spp, "Samples of path (default 65536); four times as many halve the error")
       ->check(CLI::Range(2u, 4000000000u));
   command->add_flag("--fluence", options->fluence,

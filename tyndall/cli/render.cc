@@ -91,7 +91,7 @@ void check_outputs(const std::vector<std::string>& outputs) {
       throw Fault("--output", "the file name " + in_quotes(output), "a name ending in .exr or .png");
     }
     check_writable(output);
-    if (!seen.insert(std::filesystem::weakly_canonical(output)).second) {
+    if (!seen.insert(std::filesystem::weakly_canonical(std::filesystem::absolute(output))).second) {
       throw Fault("--output", "the file " + in_quotes(output) + " a second time", "each file once");
     }
   }

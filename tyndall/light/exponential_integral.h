@@ -15,6 +15,7 @@ inline std::complex<double> scaled_exponential_integral(std::complex<double> z) 
   const double x = z.real(), y = z.imag(), squared = x * x + y * y;
   const double radius = squared > 1e-290 && squared < 1e290 ? std::sqrt(squared) : std::hypot(x, y);
   if (radius == 0.0) return std::numeric_limits<double>::infinity();
+  const auto size = [](const std::complex<double>& w) { return std::fabs(w.real()) + std::fabs(w.imag()); };
   // Both remedies depend on m = |z| + Re z only. The power series loses e^m of its digits; the continued fraction
   // converges like exp(-4 Re sqrt(2 n z)) = exp(-4 sqrt(n m)), which asks for n = 190 / m terms in practice.
   const double m = x >= 0.0 ? radius + x : y * y / (radius - x);
@@ -35,7 +36,7 @@ inline std::complex<double> scaled_exponential_integral(std::complex<double> z) 
     // Beside the negative axis, where neither works: the asymptotic series (A&S 5.1.51), whose smallest term is e^-|z|.
     const std::complex<double> inverse = 1.0 / z;
     std::complex<double> term = inverse, sum = inverse;
-    for (int k = 1; k < radius && std::abs(term) > 1e-18 * std::abs(sum); ++k) {
+    for (int k = 1; k < radius && size(term) > 1e-18 * size(sum); ++k) {
       term *= -static_cast<double>(k) * inverse;
       sum += term;
     }
@@ -48,7 +49,7 @@ inline std::complex<double> scaled_exponential_integral(std::complex<double> z) 
     power *= -z / static_cast<double>(k);
     const std::complex<double> term = power / static_cast<double>(k);
     sum += term;
-    if (k > radius && std::abs(term) < 1e-17 * std::abs(sum)) break;
+    if (k > radius && size(term) < 1e-17 * size(sum)) break;
   }
   return std::exp(z) * (-euler - std::log(z) - sum);
 }

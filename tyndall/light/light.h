@@ -13,6 +13,9 @@
 
 namespace tyndall {
 
+/// How bright lights may be: squares and products of a few of these stay within double precision.
+constexpr Range light_range{0.0, 1e30};
+
 /// Same intensity [W/sr] per channel in all directions from a position [m].
 struct PointLight {
   static constexpr std::string_view name = "point";
@@ -22,8 +25,8 @@ struct PointLight {
   static constexpr auto fields() {
     return std::tuple{
         Field{"position", &PointLight::position, any_number, "m", "Where the lamp is.", Scaling::length, true},
-        Field{"intensity", &PointLight::intensity, not_negative, "W/sr", "Radiant intensity per channel.",
-              Scaling::none, true}};
+        Field{"intensity", &PointLight::intensity, light_range, "W/sr", "Radiant intensity per channel.", Scaling::none,
+              true}};
   }
 };
 
@@ -40,7 +43,7 @@ struct SpotLight {
         Field{"position", &SpotLight::position, any_number, "m", "Where the lamp is.", Scaling::length, true},
         Field{"direction", &SpotLight::direction, any_number, "1", "Where it shines; need not be unit.", Scaling::none,
               true},
-        Field{"intensity", &SpotLight::intensity, not_negative, "W/sr", "On-axis radiant intensity per channel.",
+        Field{"intensity", &SpotLight::intensity, light_range, "W/sr", "On-axis radiant intensity per channel.",
               Scaling::none, true},
         Field{"inner_angle", &SpotLight::inner_angle, Range{0.0, 90.0}, "degrees",
               "Off axis, up to which it is fully bright."},
@@ -60,7 +63,7 @@ struct SunLight {
   static constexpr auto fields() {
     return std::tuple{Field{"direction", &SunLight::direction, any_number, "1",
                             "Direction in which the light travels; need not be unit.", Scaling::none, true},
-                      Field{"irradiance", &SunLight::irradiance, not_negative, "W/m^2",
+                      Field{"irradiance", &SunLight::irradiance, light_range, "W/m^2",
                             "On a surface facing the sun, per channel.", Scaling::none, true},
                       Field{"angular_diameter", &SunLight::angular_diameter, Range{0.0, 90.0}, "degrees",
                             "Apparent size; the real sun's is 0.53."}};

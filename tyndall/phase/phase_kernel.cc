@@ -11,21 +11,6 @@ namespace TYNDALL_KERNEL_NAMESPACE {
 
 constexpr std::size_t width = Lanes::size;
 
-Lobe<Lanes> lane_lobe(const LobeRecord& record) {
-  const Lanes a(record.parameters[0]), b(record.parameters[1]);
-  static_assert(std::variant_size_v<Lobe<Lanes>> == 4, "a new lobe needs its line here and in lobe_records");
-  switch (record.kind) {
-    case 1:
-      return RayleighLobe<Lanes>{a};
-    case 2:
-      return HenyeyGreensteinLobe<Lanes>{a, b};
-    case 3:
-      return PowerLobe<Lanes>{static_cast<int>(record.parameters[0])};
-    default:
-      return IsotropicLobe<Lanes>{};
-  }
-}
-
 // The hazy and murky laws have an inverse of their own, many times quicker than the general one.
 bool is_half_isotropic(const PhaseKernelCall& call) {
   return call.lobe_count == 2 && call.lobes[0].kind == 0 && call.lobes[1].kind == 3 && call.lobes[0].weight == 0.5F &&
@@ -71,7 +56,7 @@ void add_up(const PhaseKernelCall& call, Evaluate evaluate) {
             store(k == 0 ? term : load(call.value, first, lanes) + term, call.value, first, lanes);
           });
         },
-        lane_lobe(call.lobes[k]));
+        lobe_of<Lanes>(call.lobes[k]));
   }
 }
 
@@ -88,7 +73,7 @@ void sample_all(const PhaseKernelCall& call, Inverse inverse) {
 void sample_lobes(const PhaseKernelCall& call) {
   if (call.lobe_count == 1) {
     std::visit([&](const auto& lobe) { sample_all(call, [&](const Lanes& xi) { return lobe.sample(xi); }); },
-               lane_lobe(call.lobes[0]));
+               lobe_of<Lanes>(call.lobes[0]));
   } else if (is_half_isotropic(call)) {
     const int n = static_cast<int>(call.lobes[1].parameters[0]);
     // The exponents of the named laws as constants, so that their powers unroll.
@@ -101,7 +86,8 @@ void sample_lobes(const PhaseKernelCall& call) {
     }
   } else {
     LobeSum<Lanes> lobes;
-    for (int k = 0; k < call.lobe_count; ++k) lobes.push_back({Lanes(call.lobes[k].weight), lane_lobe(call.lobes[k])});
+    for (int k = 0; k < call.lobe_count; ++k)
+      lobes.push_back({Lanes(call.lobes[k].weight), lobe_of<Lanes>(call.lobes[k])});
     sample_all(call, [&](const Lanes& xi) { return sample(lobes, xi); });
   }
 }

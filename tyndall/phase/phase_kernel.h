@@ -3,14 +3,9 @@
 // shares nothing else with the program (ARCHITECTURE.md). Callers use phase_kernels.h.
 #include <cstddef>
 
-namespace tyndall {
+#include "tyndall/phase/lobe_record.h"
 
-/// A lobe as plain numbers: `kind` is its index in the Lobe list; parameters in the order of its members.
-struct LobeRecord {
-  int kind;
-  float weight;
-  float parameters[4];
-};
+namespace tyndall {
 
 enum class PhaseTask { density, cdf, sample };
 

@@ -3,28 +3,9 @@
 #include <cassert>
 
 namespace tyndall {
-namespace {
-
-struct Parameters {
-  LobeRecord& record;
-  void operator()(const IsotropicLobe<float>&) const {}
-  void operator()(const RayleighLobe<float>& lobe) const { record.parameters[0] = lobe.gamma; }
-  void operator()(const HenyeyGreensteinLobe<float>& lobe) const {
-    record.parameters[0] = lobe.g;
-    record.parameters[1] = lobe.complement;
-  }
-  void operator()(const PowerLobe<float>& lobe) const { record.parameters[0] = static_cast<float>(lobe.n); }
-};
-
-}  // namespace
-
 std::vector<LobeRecord> lobe_records(const LobeSum<float>& lobes) {
   std::vector<LobeRecord> out;
-  for (const auto& part : lobes) {
-    LobeRecord record{static_cast<int>(part.lobe.index()), part.weight, {}};
-    std::visit(Parameters{record}, part.lobe);
-    out.push_back(record);
-  }
+  for (const auto& part : lobes) out.push_back(lobe_record(part));
   return out;
 }
 

@@ -1,8 +1,18 @@
 #include "tyndall/render/film.h"
 
 #include <cmath>
+#include <limits>
 
 namespace tyndall {
+namespace {
+
+/// What a float cannot hold (a lamp in the camera, the variance of something very bright) is its largest value.
+float as_float(double x) {
+  constexpr float largest = std::numeric_limits<float>::max();
+  return x > largest ? largest : static_cast<float>(x);
+}
+
+}  // namespace
 
 double SampleFilm::noise() const {
   double mean = 0.0;
@@ -26,7 +36,7 @@ Image SampleFilm::develop() const {
     const Pixel& p = pixels_[i];
     const double n = std::max(1u, p.samples);
     const auto put = [&](std::size_t layer, const Spectrum& x) {
-      for (std::size_t c = 0; c < 3; ++c) image.planes[layer + c].values[i] = static_cast<float>(x[c]);
+      for (std::size_t c = 0; c < 3; ++c) image.planes[layer + c].values[i] = as_float(x[c]);
     };
     put(beauty, mean_beauty(p));
     put(single, p.single / n);
@@ -34,7 +44,7 @@ Image SampleFilm::develop() const {
     put(multiple, p.multiple / n);
     put(transmittance, p.transmittance / n);
     put(variance, variance_of_mean(p));
-    image.planes[depth].values[i] = static_cast<float>(p.depth);
+    image.planes[depth].values[i] = p.depth == infinity ? std::numeric_limits<float>::infinity() : as_float(p.depth);
   }
   return image;
 }

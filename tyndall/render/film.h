@@ -56,7 +56,7 @@ class SampleFilm {
   double noise() const;
 
   /// The layers of an image file: beauty, single, surface, multiple, transmittance, depth.Z, variance. Pixels without
-  /// samples are black.
+  /// samples are black; what a float cannot hold is its largest value.
   Image develop() const;
 
  private:

@@ -2,7 +2,7 @@
 // The light that lamps throw into one segment of a path, and where along it to sample that light.
 #include <vector>
 
-#include "tyndall/light/spot_cone.h"
+#include "tyndall/light/airlight_spot.h"
 #include "tyndall/medium/free_flight.h"
 #include "tyndall/render/distance_table.h"
 #include "tyndall/render/path_lights.h"
@@ -111,11 +111,11 @@ class LampSegment {
   };
 
   Approach approach(const Lamp& lamp) const {
-    const Vector to_lamp = lamp.position - ray_.origin;
-    const double a = dot(to_lamp, ray_.direction);
+    const LampView view = LampView::of(ray_, lamp.position);
     Interval range{0.0, end_};
-    if (lamp.spot != nullptr) range = lit_interval(*lamp.spot, ray_, range);
-    return {a, length(to_lamp - ray_.direction * a), range, range.empty() ? 0.0 : dim_after(std::clamp(a, 0.0, end_))};
+    if (lamp.spot != nullptr) range = intersection(range, cone_stretch(view, lamp.axis, lamp.spot->outer_angle));
+    const double a = view.place.along;
+    return {a, view.place.aside, range, range.empty() ? 0.0 : dim_after(std::clamp(a, 0.0, end_))};
   }
 
   DistanceTable table(const Lamp& lamp, const Approach& at) const {

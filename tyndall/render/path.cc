@@ -88,6 +88,7 @@ struct PathTracer::State {
     }
     if (!may_go_on(walk)) return out;
     stretches = seen;
+    suns_along(walk, end, random);
     const Flight flight = sample_flight(stretches, walk.beta, end, true, random.next(), random.next());
     if (flight.t < end) {
       walk.beta *= flight.weight;
@@ -151,6 +152,30 @@ struct PathTracer::State {
         weight *= balance(walk.direction_density, other);
       }
       add(walk, walk.beta * airlight(walk.ray, end, at) * weight, 1, 0);
+    }
+  }
+
+  /// Sunlight scattered once toward the eye: shafts are light or shadow, so their share of the eye's segment is
+  /// measured at several places, spread evenly over the chances of a collision.
+  void suns_along(const Walk& walk, double end, RandomStream& random) {
+    if (stretches.empty() || context.lights.suns.empty()) return;
+    constexpr int places = 8;
+    for (int i = 0; i < places; ++i) {
+      const double xi_channel = random.next(), xi = (i + random.next()) / places;
+      const Flight flight = sample_flight(stretches, walk.beta, end, true, xi_channel, xi);
+      if (!(flight.t < end)) continue;
+      beside.set(context.medium, stretches, flight.t);
+      sunlight(walk, beside, walk.ray.at(flight.t), walk.beta * flight.weight / static_cast<double>(places), random);
+    }
+  }
+
+  /// Adds the sunlight that a collision at `point` scatters toward the walk.
+  void sunlight(const Walk& walk, const ScatterPoint& at, const Vector& point, const Spectrum& beta,
+                RandomStream& random) {
+    for (const SunLight& sun : context.lights.suns) {
+      const LightSample light = sample_sun(sun, random.next(), random.next());
+      const Spectrum f = at.scattered(deflection_between(-light.direction, -walk.ray.direction));
+      if (!is_zero(f)) add(walk, beta * f * light.radiance * unoccluded({point, light.direction}, infinity), 1, 0);
     }
   }
 
@@ -238,11 +263,7 @@ struct PathTracer::State {
     if (is_zero(walk.beta * scatter.scattering())) return false;
     // Light travels against the walk: toward the eye along -direction.
     const auto toward = [&](const Vector& to_light) { return deflection_between(-to_light, -walk.ray.direction); };
-    for (const SunLight& sun : context.lights.suns) {
-      const LightSample light = sample_sun(sun, random.next(), random.next());
-      const Spectrum f = scatter.scattered(toward(light.direction));
-      if (!is_zero(f)) add(walk, walk.beta * f * light.radiance * unoccluded({point, light.direction}, infinity), 1, 0);
-    }
+    if (walk.depth() > 0) sunlight(walk, scatter, point, walk.beta, random);  // the eye's segment has had its own
     for (const auto& light :
          {context.lights.sample_environment(random), context.lights.sample_emitter(point, random)}) {
       if (!(light.density > 0.0)) continue;

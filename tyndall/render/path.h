@@ -15,9 +15,9 @@ class PathContext {
  public:
   /// Both must outlive the context. max_depth: most events (collisions and reflections) of a path, 0 for no limit.
   /// follow_through: the share of paths that go on each time their number of events has doubled (Russian roulette,
-  /// unbiased): 0.5 is best for pictures, where late orders are smooth and many pixels share the work; 1 for a figure
+  /// unbiased): 0.8 is good for pictures, where late orders are smooth and many pixels share the work; 1 for a figure
   /// that hangs on late orders.
-  PathContext(const Scene& scene, const Geometry& geometry, int max_depth = 0, double follow_through = 0.5);
+  PathContext(const Scene& scene, const Geometry& geometry, int max_depth = 0, double follow_through = 0.8);
   ~PathContext();
   PathContext(const PathContext&) = delete;
   PathContext& operator=(const PathContext&) = delete;

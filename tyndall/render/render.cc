@@ -92,11 +92,13 @@ Image render(const Scene& scene, const Geometry& geometry, const RenderSettings&
   Rendering rendering(settings, report, stop);
   std::string quadrature;
   if (settings.integrator == "single") {
-    const SingleContext context(scene, geometry);
+    // A picture shows six digits at most; probes ask for more (probe.cc).
+    const SingleContext context(scene, geometry, {.tolerance = 1e-6, .sky_directions = 128});
     quadrature = single_description(context);
     rendering.pass(film, tiles, settings.spp, [&](const Tile& tile, int) {
       for (int y = tile.y0; y < tile.y1; ++y) {
-        for (int x = tile.x0; x < tile.x1; ++x) SampleFilm::set(film.at(x, y), single_pixel(context, x, y, settings.spp));
+        for (int x = tile.x0; x < tile.x1; ++x)
+          SampleFilm::set(film.at(x, y), single_pixel(context, x, y, settings.spp));
       }
     });
   } else {
@@ -119,7 +121,7 @@ Image render(const Scene& scene, const Geometry& geometry, const RenderSettings&
               RandomStream random(settings.seed, number, static_cast<std::uint32_t>(done + i));
               const double dx = random.next(), dy = random.next();
               SampleFilm::add(pixel, tracers[static_cast<std::size_t>(thread)]->trace(camera.through(x + dx, y + dy),
-                                                                                infinity, random));
+                                                                                      infinity, random));
             }
           }
         }

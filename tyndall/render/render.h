@@ -10,9 +10,6 @@
 
 namespace tyndall {
 
-/// The closed list of integrators.
-inline constexpr std::array<std::string_view, 2> integrator_names{"path", "single"};
-
 struct RenderSettings {
   std::string integrator = "path";  // one of integrator_names
   int spp = 64;                     // samples per pixel, > 0

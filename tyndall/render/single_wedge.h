@@ -85,7 +85,7 @@ struct Wedge {
     if (!far) add(0, -1, 0, along, aside);
     // Right of the line from (begin, 0) to the lamp, left of that from (end, 0).
     const auto side = [&](double t, double sign) {
-      const double lx = far ? slope : along - t, ly = far ? 1.0 : aside, scale = sign / std::hypot(lx, ly);
+      const double lx = far ? slope : along - t, ly = far ? 1.0 : aside, scale = sign / std::sqrt(lx * lx + ly * ly);
       add(ly * scale, -lx * scale, 0, t, 0);
     };
     side(range.begin, 1.0);

@@ -13,16 +13,8 @@ namespace {
 
 constexpr std::uint32_t block_paths = 8192;
 
-PlainLobe plain(const WeightedLobe<double>& part, const Spectrum& scattering) {
-  PlainLobe out{static_cast<int>(part.lobe.index()), {0.0f, 0.0f}, {}};
-  if (const auto* rayleigh = std::get_if<RayleighLobe<double>>(&part.lobe)) {
-    out.parameter[0] = static_cast<float>(rayleigh->gamma);
-  } else if (const auto* hg = std::get_if<HenyeyGreensteinLobe<double>>(&part.lobe)) {
-    out.parameter[0] = static_cast<float>(hg->g);
-    out.parameter[1] = static_cast<float>(hg->complement);
-  } else if (const auto* power = std::get_if<PowerLobe<double>>(&part.lobe)) {
-    out.parameter[0] = static_cast<float>(power->n);
-  }
+SlabLobe slab_lobe(const WeightedLobe<double>& part, const Spectrum& scattering) {
+  SlabLobe out{lobe_record(part), {}};
   for (std::size_t c = 0; c < channel_count; ++c) out.scattering[c] = static_cast<float>(scattering[c] * part.weight);
   return out;
 }
@@ -100,16 +92,17 @@ SlabResult solve_slab(const SlabRequest& request) {
   const std::size_t blocks = (request.paths + block_paths - 1) / block_paths;
   std::vector<std::vector<double>> sums(blocks, std::vector<double>(tallies)), squares = sums;
 
-  std::vector<PlainLobe> lobes;
+  std::vector<SlabLobe> lobes;
   Spectrum extinction, scattering;
   for (const LoweredSpecies& s : medium.species) {
     extinction += s.extinction;
     scattering += s.scattering;
-    for (std::size_t i = 0; i < s.lobe_count; ++i) lobes.push_back(plain(medium.lobes[s.first_lobe + i], s.scattering));
+    for (std::size_t i = 0; i < s.lobe_count; ++i)
+      lobes.push_back(slab_lobe(medium.lobes[s.first_lobe + i], s.scattering));
   }
   // Depth is counted in mean free paths of the thickest channel, whatever the units of the medium.
   const double unit = largest(extinction) > 0.0 ? largest(extinction) : 1.0;
-  for (PlainLobe& lobe : lobes) {
+  for (SlabLobe& lobe : lobes) {
     for (float& x : lobe.scattering) x = static_cast<float>(x / unit);
   }
   const std::vector<float> mu(request.mu.begin(), request.mu.end());

@@ -53,25 +53,11 @@ struct LaneRandom {
   }
 };
 
-Lobe<Lanes> lane_lobe(const PlainLobe& plain) {
-  const Lanes a(plain.parameter[0]), b(plain.parameter[1]);
-  switch (plain.kind) {
-    case 1:
-      return RayleighLobe<Lanes>{a};
-    case 2:
-      return HenyeyGreensteinLobe<Lanes>{a, b};
-    case 3:
-      return PowerLobe<Lanes>{static_cast<int>(plain.parameter[0])};
-    default:
-      return IsotropicLobe<Lanes>{};
-  }
-}
-
 template <int N>
 class Slab {
  public:
   Slab(const SlabTask& task, double* sum, double* squares) : task_(task), sum_(sum), squares_(squares) {
-    for (int i = 0; i < task.lobe_count; ++i) lobes_.push_back(lane_lobe(task.lobes[i]));
+    for (int i = 0; i < task.lobe_count; ++i) lobes_.push_back(lobe_of<Lanes>(task.lobes[i].lobe));
     tallies_.resize(slab_tally_count(N, task.mu_count));
     random_.key[0] = static_cast<std::uint32_t>(task.seed);
     random_.key[1] = static_cast<std::uint32_t>(task.seed >> 32);

@@ -4,19 +4,20 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "tyndall/phase/lobe_record.h"
+
 namespace tyndall {
 
-/// A lobe as plain numbers: `kind` is its index in the Lobe list.
-struct PlainLobe {
-  int kind;
-  float parameter[2];
+/// A lobe and how much it scatters.
+struct SlabLobe {
+  LobeRecord lobe;
   float scattering[3];  // optical depth of scattering by this lobe over a unit of depth, per channel
 };
 
 /// A homogeneous slab, 0 <= z <= thickness downward, and the paths to trace through it.
 struct SlabTask {
   int channels;  // 1 (all channels alike) or 3
-  const PlainLobe* lobes;
+  const SlabLobe* lobes;
   int lobe_count;
   float extinction[3], scattering[3];  // per unit of z
   float thickness;                     // in units of z; infinity is a half space

@@ -40,7 +40,7 @@ inline Scene busy_scene() {
   const int panel = add_material(scene, Spectrum::grey(0.0), {{4.0, 3.0, 2.0}});
   add_quad(scene, {-5, 0, 5}, {10, 0, 0}, {0, 0, -10}, matte);
   add_quad(scene, {-5, 0, -5}, {10, 0, 0}, {0, 5, 0}, glossy);
-  add_quad(scene, {-1, 3, -2}, {0, 0, 1}, {1, 0, 0}, panel);
+  add_quad(scene, {-1, 3, -2}, {1, 0, 0}, {0, 0, 1}, panel);
   scene.points.push_back({{2, 2, -1}, {{3.0, 2.0, 1.0}}});
   scene.spots.push_back({{-3, 4, 0}, {0.5, -1, -0.2}, Spectrum::grey(8.0), 10, 25});
   scene.suns.push_back({{0.3, -1, -0.5}, Spectrum::grey(0.5), 0.5});

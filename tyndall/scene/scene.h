@@ -68,6 +68,9 @@ struct Film {
   }
 };
 
+/// The closed list of integrators.
+inline constexpr std::array<std::string_view, 2> integrator_names{"path", "single"};
+
 /// What the scene file asks of the renderer; the command line may say otherwise.
 struct IntegratorSettings {
   static constexpr std::string_view text = "How the picture is computed.";

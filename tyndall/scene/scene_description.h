@@ -1,5 +1,6 @@
 #pragma once
 // What a scene file says, as it says it: names of files not followed yet, lengths in the file's own units.
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 
 #include "tyndall/artist/stated_species.h"
 #include "tyndall/document/medium_file.h"
+#include "tyndall/document/spelling.h"
 #include "tyndall/number/described.h"
 #include "tyndall/scene/scene.h"
 
@@ -60,9 +62,9 @@ struct EnvironmentDescription {
   static constexpr auto fields() {
     return std::tuple{
         Field{"file", &EnvironmentDescription::file, any_number, "", "A latitude-longitude picture, .hdr or .exr."},
-        Field{"radiance", &EnvironmentDescription::radiance, not_negative, "W/(m^2 sr)",
+        Field{"radiance", &EnvironmentDescription::radiance, light_range, "W/(m^2 sr)",
               "The same radiance from everywhere, per channel."},
-        Field{"scale", &EnvironmentDescription::scale, not_negative, "1", "Makes it brighter or darker."},
+        Field{"scale", &EnvironmentDescription::scale, light_range, "1", "Makes it brighter or darker."},
         Field{"rotation", &EnvironmentDescription::rotation, any_number, "degrees",
               "Turns the panorama about the vertical, counter-clockwise seen from above."}};
   }
@@ -151,8 +153,9 @@ inline std::optional<Objection> objection_to(const Film& film) {
   return Objection{"", "more than 134217728 pixels", "a smaller picture"};
 }
 inline std::optional<Objection> objection_to(const IntegratorSettings& integrator) {
-  if (integrator.name == "path" || integrator.name == "single") return std::nullopt;
-  return Objection{"name", "an unknown integrator", "one of path, single"};
+  if (std::ranges::find(integrator_names, integrator.name) != integrator_names.end()) return std::nullopt;
+  return Objection{"name", "the integrator " + in_quotes(integrator.name),
+                   one_of(integrator.name, {integrator_names.begin(), integrator_names.end()})};
 }
 
 }  // namespace tyndall

@@ -23,9 +23,8 @@ bool is_gltf(const fs::path& file) {
   return extension == ".glb" || extension == ".gltf";
 }
 
-/// The camera that sees everything from slightly above and beside, as one would hold a thing to look at it.
-Camera framing(const Scene& scene) {
-  Camera camera;
+/// The box around all meshes; none without any.
+std::optional<Box> bounds_of(const Scene& scene) {
   Vector low{infinity, infinity, infinity}, high = -low;
   for (const Mesh& mesh : scene.meshes) {
     for (const auto& p : mesh.positions) {
@@ -33,21 +32,80 @@ Camera framing(const Scene& scene) {
       high = {std::max<double>(high.x, p[0]), std::max<double>(high.y, p[1]), std::max<double>(high.z, p[2])};
     }
   }
-  if (!(low.x <= high.x)) return camera;
-  const double radius = std::max(0.5 * length(high - low), 1e-6);
+  return low.x <= high.x ? std::optional(Box{low, high}) : std::nullopt;
+}
+
+/// The camera that sees everything from slightly above and beside, as one would hold a thing to look at it.
+Camera framing(const Scene& scene) {
+  Camera camera;
+  const auto bounds = bounds_of(scene);
+  if (!bounds) return camera;
+  const auto& [low, high] = *bounds;
   const double half_height = std::tan(0.5 * camera.vertical_fov * std::numbers::pi / 180.0);
   const double half_width = half_height * scene.film.width / scene.film.height;
+  const Vector back = normalized({0.5, 0.35, 1.0});
+  const Vector right = normalized(cross(camera.up, back)), up = cross(back, right);
   camera.look_at = (low + high) * 0.5;
-  const double distance = radius / std::sin(std::atan(std::min(half_height, half_width)));
-  camera.position = camera.look_at + normalized({0.5, 0.35, 1.0}) * distance;
+  // Far enough for every corner of the box to be inside the picture's edges, and a little air around it.
+  double distance = 1e-6;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vector p = Vector{(corner & 1) != 0 ? low.x : high.x, (corner & 2) != 0 ? low.y : high.y,
+                            (corner & 4) != 0 ? low.z : high.z} -
+                     camera.look_at;
+    const double needed = std::max(std::fabs(dot(p, right)) / half_width, std::fabs(dot(p, up)) / half_height);
+    distance = std::max(distance, 1.1 * (needed + dot(p, back)));
+  }
+  camera.position = camera.look_at + back * distance;
   return camera;
 }
 
-bool has_light(const Scene& scene) {
-  return !scene.points.empty() || !scene.spots.empty() || !scene.suns.empty() || scene.environment ||
-         std::ranges::any_of(scene.meshes, [&](const Mesh& mesh) {
-           return mesh.material >= 0 && !is_zero(scene.materials[static_cast<std::size_t>(mesh.material)].emission);
-         });
+bool has_light_inside(const Scene& scene) {
+  return !scene.points.empty() || !scene.spots.empty() || std::ranges::any_of(scene.meshes, [&](const Mesh& mesh) {
+    return mesh.material >= 0 && !is_zero(scene.materials[static_cast<std::size_t>(mesh.material)].emission);
+  });
+}
+bool has_light_outside(const Scene& scene) { return !scene.suns.empty() || scene.environment; }
+
+/// Whether the medium goes on for ever in all directions, so that no light comes through it from outside.
+bool is_endless(const Medium& medium) {
+  return std::ranges::any_of(medium.species, [](const Species& s) {
+    return !is_zero(s.extinction()) && std::ranges::all_of(s.profiles, [](const Profile& profile) {
+      return std::holds_alternative<ConstantProfile>(profile);
+    });
+  });
+}
+
+/// Says why a picture will be black, where that is known.
+void note_darkness(Scene& scene, const fs::path& file) {
+  if (has_light_inside(scene)) return;
+  if (!has_light_outside(scene)) {
+    scene.warnings.push_back(place(file.string()) + ": no light: the picture will be black");
+  } else if (is_endless(scene.medium)) {
+    scene.warnings.push_back(place(file.string()) +
+                             ": the medium is endless, so that no sun or environment shines through it: the picture "
+                             "will be black; give the medium a height profile or a volume, or add lamps");
+  }
+}
+
+/// Light for a scene that has none: all around it, or where the medium lets nothing through, a lamp beside the camera
+/// that is as bright on what the camera looks at.
+void stand_in_for_light(Scene& scene, const fs::path& file) {
+  std::string what = "an environment of radiance 1 W/(m^2 sr)";
+  if (is_endless(scene.medium)) {
+    const Camera& camera = scene.camera;
+    const Vector forward = normalized(camera.look_at - camera.position);
+    const Vector right = normalized(cross(forward, camera.up)), up = cross(right, forward);
+    const auto bounds = bounds_of(scene);
+    const double distance = bounds ? std::max(length((bounds->low + bounds->high) * 0.5 - camera.position),
+                                              0.1 * length(bounds->high - bounds->low))
+                                   : length(camera.look_at - camera.position);
+    scene.points.push_back(
+        {camera.position + (up - right) * (0.2 * distance), Spectrum::grey(std::numbers::pi * distance * distance)});
+    what = "a lamp beside the camera";
+  } else {
+    scene.environment.emplace().radiance = Spectrum::grey(1.0);
+  }
+  scene.warnings.push_back(place(file.string()) + ": no light: " + what + " stands in");
 }
 
 /// Camera and film, where the scene file does not state them: from the glTF file, else so that all is seen.
@@ -63,11 +121,9 @@ Scene scene_of_gltf(const fs::path& file, const SceneOptions& options) {
   Scene scene;
   const auto camera = add_gltf(scene, file, 1.0, options.allow_path);
   complete_view(scene, camera, false, false);
-  if (!has_light(scene)) {
-    scene.environment.emplace().radiance = Spectrum::grey(1.0);
-    scene.warnings.push_back(place(file.string()) + ": no light: an environment of radiance 1 W/(m^2 sr) stands in");
-  }
   if (!options.medium.empty()) scene.medium = compile(read_medium_file(options.medium), options.medium.string());
+  if (!has_light_inside(scene) && !has_light_outside(scene)) stand_in_for_light(scene, file);
+  note_darkness(scene, file);
   return scene;
 }
 
@@ -107,7 +163,7 @@ class Assembly {
       if (auto objection = objection_to(scene_.camera)) throw root_.at("camera").fault_below(*objection);
     }
     complete_view(scene_, camera, description.camera.has_value(), description.film.has_value());
-    if (!has_light(scene_)) scene_.warnings.push_back(place(file_.string()) + ": no light: the picture will be black");
+    note_darkness(scene_, file_);
     return std::move(scene_);
   }
 

@@ -190,6 +190,32 @@ TEST(SceneFile, GlbWithoutCameraOrLightGetsBoth) {
   EXPECT_NO_THROW(read_scene(folder.put("empty.gltf", R"({"asset": {"version": "2.0"}})")));
 }
 
+TEST(SceneFile, EndlessAirLetsNoLightInFromOutside) {
+  const Folder folder;
+  Glb glb;
+  glb.node({{"mesh", glb.triangle_mesh()}});
+  const auto file = folder.put("bare.glb", glb.bytes());
+  // A lamp stands in, where an environment would leave the picture black.
+  const Scene lamp = read_scene(file, {folder.put("fog.medium.json", std::string(fog)), false});
+  EXPECT_FALSE(lamp.environment);
+  ASSERT_EQ(lamp.points.size(), 1U);
+  const Vector middle = Vector{lamp.camera.look_at} - lamp.camera.position;
+  EXPECT_LT(length(lamp.points[0].position - lamp.camera.position), 0.5 * length(middle));
+  EXPECT_EQ(lamp.warnings.size(), 1U);
+  // One that thins out above lets the sky in.
+  const auto layer = folder.put("layer.medium.json", R"({"format": "tyndall-medium/1", "species": [
+    {"scattering": 0.02, "profile": {"law": "exponential", "scale_height": 10}}]})");
+  EXPECT_TRUE(read_scene(file, {layer, false}).environment);
+  const auto warnings = [&](const char* medium) {
+    json scene = {{"format", "tyndall-scene/1"}, {"medium", medium}};
+    scene["lights"] = {{{"type", "sun"}, {"direction", {0, -1, 0}}, {"irradiance", 1}}};
+    return read_scene(folder.put("test.scene.json", scene.dump())).warnings;
+  };
+  ASSERT_EQ(warnings("fog.medium.json").size(), 1U);
+  EXPECT_NE(warnings("fog.medium.json")[0].find("endless"), std::string::npos);
+  EXPECT_TRUE(warnings("layer.medium.json").empty());
+}
+
 TEST(SceneFile, LittleIsNeeded) {
   const Files files;
   const Scene s = files.read(json::parse(R"({"format": "tyndall-scene/1"})"));
@@ -233,7 +259,7 @@ TEST(SceneFile, MistakesAreAnsweredWithPlaceAndPossibilities) {
       {"/meters_per_unit", 0, "/meters_per_unit", "above 0"},
       {"/geometri", json::array(), "/geometri", "did you mean \"geometry\"?"},
       {"/lights/0/type", "pont", "/lights/0/type", "did you mean \"point\"?"},
-      {"/lights/0/intensity", -1, "/lights/0/intensity", "at least 0"},
+      {"/lights/0/intensity", -1, "/lights/0/intensity", "from 0 to 1e+30"},
       {"/lights/0/intensity", {1, 2}, "/lights/0/intensity", "list of 3"},
       {"/lights/1/direction", {0, 0, 0}, "/lights/1/direction", "not all 0"},
       {"/lights/1/inner_angle", 31, "/lights/1/inner_angle", "inner_angle <= outer_angle"},
@@ -301,6 +327,33 @@ TEST(SceneFile, FilesThatAreNoScenesAreAnswered) {
   EXPECT_THROW(read_scene(folder.path), Fault);
   EXPECT_THROW(read_scene(folder.path / "absent.glb"), Fault);
   EXPECT_THROW(read_scene("/dev/null"), Fault);
+}
+
+TEST(SceneFile, DamagedFilesAreAnsweredWithAMessageOrAScene) {
+  const Files files;
+  const std::string good = whole().dump(1);
+  int refused = 0;
+  for (unsigned seed = 0; seed < 300; ++seed) {
+    std::mt19937 random(seed);
+    std::string text = good;
+    if (seed % 4 == 0) text.resize(random() % text.size());
+    if (seed % 4 == 1) text[random() % text.size()] ^= static_cast<char>(1U << random() % 8);
+    for (auto digits = seed % 4 < 2 ? 0 : 1 + random() % 3; digits > 0;) {
+      char& c = text[random() % text.size()];
+      if (c < '0' || c > '9') continue;
+      c = "0123456789-.e"[random() % 13];
+      --digits;
+    }
+    try {
+      const Scene s = read_scene(files.folder.put("bad.scene.json", text));
+      EXPECT_TRUE(is_finite(s.camera.position)) << seed;
+    } catch (const Fault& fault) {
+      ++refused;
+      EXPECT_NE(std::string(fault.what()).find("bad.scene.json"), std::string::npos) << seed << ": " << fault.what();
+    }
+  }
+  EXPECT_GT(refused, 100);
+  EXPECT_LT(refused, 300);
 }
 
 TEST(SceneFile, MixedMeaningsOfChannelsAreWarnedAbout) {
