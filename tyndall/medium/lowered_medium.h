@@ -18,8 +18,8 @@ struct LoweredSpecies {
   std::vector<Sphere> spheres;
   std::size_t first_lobe = 0, lobe_count = 0;  // in LoweredMedium::lobes
 
-  /// Density factor at height y, shapes aside.
-  double at_height(double y) const { return decay == 0.0 ? 1.0 : std::exp(-decay * (y - base)); }
+  /// Natural logarithm of the density factor at height y, shapes aside.
+  double log_at_height(double y) const { return decay == 0.0 ? 0.0 : -decay * (y - base); }
 };
 
 struct LoweredMedium {
@@ -61,20 +61,22 @@ inline LoweredMedium lower(const Medium& medium) {
 struct Stretch {
   const LoweredSpecies* species;
   Interval range;
-  double factor;  // at range.begin
-  double rate;    // [1/m] along the ray; negative when the ray descends into thicker air
+  double factor;      // at range.begin; may underflow to 0 high above an air that the ray descends into
+  double rate;        // [1/m] along the ray; negative when the ray descends into thicker air
+  double log_factor;  // what factor is the exponential of
 
   /// Density factor at t inside the range.
-  double factor_at(double t) const { return rate == 0.0 ? factor : factor * std::exp(-rate * (t - range.begin)); }
+  double factor_at(double t) const { return rate == 0.0 ? factor : std::exp(log_factor - rate * (t - range.begin)); }
 
-  /// Length [m] of unit-density species between range.begin and t, clamped to the range. With x = rate * s it is
-  /// factor s (1 - e^-x)/x, by expm1 without cancellation; 0 <= result, infinite for an unbounded stretch of constant
-  /// density.
+  /// Length [m] of unit-density species between range.begin and t, clamped to the range: the factor at the thicker end
+  /// times (1 - e^-|rate s|)/|rate|, by expm1 without cancellation; 0 <= result, infinite for an unbounded stretch of
+  /// constant density.
   double depth_to(double t) const {
     const double s = std::min(t, range.end) - range.begin;
     if (!(s > 0.0)) return 0.0;
     if (rate == 0.0) return factor * s;
-    return -factor * std::expm1(-rate * s) / rate;
+    if (rate > 0.0) return -factor * std::expm1(-rate * s) / rate;
+    return std::exp(log_factor - rate * s) * std::expm1(rate * s) / rate;
   }
 
   /// The t at which depth_to(t) = depth >= 0; infinity where the stretch holds less.
@@ -82,10 +84,14 @@ struct Stretch {
     double s;
     if (rate == 0.0) {
       s = depth / factor;
-    } else {
+    } else if (rate > 0.0) {
       const double x = depth * rate / factor;
       if (x >= 1.0) return infinity;
       s = -std::log1p(-x) / rate;
+    } else if (log_factor > -700.0) {
+      s = std::log1p(-depth * rate / factor) / -rate;
+    } else {
+      s = depth > 0.0 ? (std::log(-depth * rate) - log_factor) / -rate : 0.0;
     }
     const double t = range.begin + s;
     return t < range.end ? t : infinity;
@@ -100,8 +106,9 @@ inline void stretches_along(const LoweredMedium& medium, const Ray& ray, double 
     for (const Box& box : s.boxes) range = intersection(range, inside(box, ray));
     for (const Sphere& sphere : s.spheres) range = intersection(range, inside(sphere, ray));
     if (range.empty()) continue;
-    const double start = s.at_height(ray.origin.y + range.begin * ray.direction.y);
-    if (start > 0.0) out.push_back({&s, range, start, s.decay * ray.direction.y});
+    const double rate = s.decay * ray.direction.y;
+    const double start = s.log_at_height(ray.origin.y + range.begin * ray.direction.y), factor = std::exp(start);
+    if (factor > 0.0 || rate < 0.0) out.push_back({&s, range, factor, rate, start});
   }
 }
 

@@ -67,10 +67,20 @@ TEST(Medium, ExponentialDepthHasItsClosedForm) {
   EXPECT_NEAR(optical_depth(stretches, 10.0)[0], 20.0 * (1.0 - 0.5 * rise * 10.0 / 3.0), 1e-13);
 }
 
+TEST(Medium, GroundFogIsSeenFromFarAbove) {
+  // 2000 scale heights up the factor is 0 in double; the column below is sigma H all the same, and a depth is found in
+  // it.
+  const LoweredMedium medium = lower(Medium{{species_of(Spectrum::grey(0.5), {}, {ExponentialProfile{10.0, 0.0}})}});
+  std::vector<Stretch> stretches;
+  stretches_along(medium, {{0, 20000, 0}, {0, -1, 0}}, 20000.0, stretches);
+  EXPECT_NEAR(optical_depth(stretches, 20000.0)[0], 5.0, 1e-9);
+  EXPECT_NEAR(distance_at_depth(stretches, 0, 1.0, 20000.0), 20000.0 - 10.0 * std::log(5.0), 1e-8);
+}
+
 TEST(Medium, TwoExponentialsMultiplyToOne) {
   const LoweredMedium medium = lower(
       Medium{{species_of(Spectrum::grey(1.0), {}, {ExponentialProfile{2.0, 1.0}, ExponentialProfile{3.0, -1.0}})}});
-  EXPECT_NEAR(medium.species[0].at_height(0.7), std::exp(0.3 / 2.0) * std::exp(-1.7 / 3.0), 1e-15);
+  EXPECT_NEAR(medium.species[0].log_at_height(0.7), 0.3 / 2.0 - 1.7 / 3.0, 1e-15);
 }
 
 TEST(FreeFlight, DistanceAtDepthInvertsOpticalDepth) {
