@@ -124,13 +124,13 @@ def knoll():
 
 
 def grass_patch(source):
-    """Sixty blades on a disc of 3 m, one triangle each; the origin is on the ground."""
+    """Ninety blades on a disc of 3 m, one triangle each; the origin is on the ground."""
     mesh = Mesh("grass")
-    for _ in range(60):
+    for _ in range(90):
         turn, out = 2 * math.pi * source.random(), 3.0 * math.sqrt(source.random())
         x, z = out * math.cos(turn), out * math.sin(turn)
         turn = 2 * math.pi * source.random()
-        wide, tall, bow = 0.035 + 0.03 * source.random(), 0.3 + 0.5 * source.random() ** 2, 0.25 * source.random()
+        wide, tall, bow = 0.01 + 0.012 * source.random(), 0.12 + 0.36 * source.random() ** 2, 0.25 * source.random()
         across = (wide * math.cos(turn), wide * math.sin(turn))
         tip = (x + bow * math.sin(turn), tall, z - bow * math.cos(turn))
         mesh.polygon(GRASS, [(x - across[0], -0.3, z - across[1]), (x + across[0], -0.3, z + across[1]), tip])
@@ -174,7 +174,7 @@ def build():
         document.node("fir %02d" % number, near[number % 2], at, rotation_about_y(360 * source.random()), height)
     tufts = [grass_patch(source) for _ in range(2)]
     for number in range(150):
-        x, z = -45.0 + 85.0 * source.random(), -12.0 - 62.0 * source.random() ** 1.4
+        x, z = -45.0 + 85.0 * source.random(), -20.0 - 60.0 * source.random() ** 1.4
         at, turn = (x, knoll_height(x, z), z), rotation_about_y(360 * source.random())
         document.node("grass %03d" % number, tufts[number % 2], at, turn, round(0.7 + 0.6 * source.random(), 2))
     # Tree lines: on a crest against the light, firs are what one sees of the wood.

@@ -25,19 +25,19 @@ FACADE = ROAD + PAVEMENT
 LAMP_HEIGHT = 6.9
 LAMP_REACH = 1.7
 SODIUM = (1.0, 0.64, 0.31)
-LAMP_INTENSITY = 72.0  # W/sr, of the channel that is strongest
+LAMP_INTENSITY = 62.0  # W/sr, of the channel that is strongest
 # (side, z), staggered; the first stands behind the camera's right shoulder and lights the foreground.
 LAMPS = [(1, -4.0)] + [(side, z) for k in range(5) for side, z in ((-1, -20.0 - 32.0 * k), (1, -36.0 - 32.0 * k))]
 
 COOL_WHITE = (0.84, 0.93, 1.0)
-HEADLIGHT_INTENSITY = 330.0
-CAR_AT = (-1.75, 0.0, -22.5)
-CAR_YAW = 180.0 - 33.0  # turning into a yard on the left: the beams cross the picture, not the lens
+HEADLIGHT_INTENSITY = 270.0
+CAR_AT = (-1.3, 0.0, -22.5)
+CAR_YAW = 180.0 - 31.0  # turning into a yard on the left: the beams cross the picture, not the lens
 
 MARKER_DISTANCES = (25, 50, 100, 200)
 
 ASPHALT = Material("wet asphalt", (0.8, 0.8, 0.82), roughness=0.26, texture=texture.asphalt(), tile=4.0)
-PUDDLE = Material("puddle", (0.016, 0.017, 0.019), roughness=0.07)
+PUDDLE = Material("puddle", (0.016, 0.017, 0.019), roughness=0.13)
 SLABS = Material("pavement", (0.13, 0.125, 0.12), roughness=0.5)
 JOINT = Material("pavement joint", (0.05, 0.05, 0.05), roughness=0.7)
 STONE = Material("kerb stone", (0.26, 0.25, 0.23), roughness=0.45)
@@ -74,6 +74,7 @@ CLOCK = Material("church clock", (0.1, 0.1, 0.1), radiance=(1.3, 1.05, 0.6))
 def road():
     mesh = Mesh("road")
     mesh.quad(ASPHALT, (-ROAD, 0, NEAR_END), (ROAD, 0, NEAR_END), (ROAD, 0, FAR_END), (-ROAD, 0, FAR_END))
+    mesh.quad(SLABS, (-90, -0.05, 40), (90, -0.05, 40), (90, -0.05, FAR_END - 90), (-90, -0.05, FAR_END - 90))
     for side in (-1, 1):
         inner, outer = side * ROAD, side * (FACADE + 0.3)
         stone = side * (ROAD + 0.28)
@@ -111,7 +112,7 @@ def markings():
 def puddles(source):
     mesh = Mesh("puddles")
     # Along the gutters, and where the far lamps are mirrored toward the camera.
-    spots = [(-1.4, -8.75, 1.5, 0.45), (3.6, -10.5, 0.6, 2.2), (-3.5, -17.2, 0.75, 2.4), (1.3, -16.0, 1.0, 1.2)]
+    spots = [(3.6, -10.5, 0.6, 2.2), (-3.5, -17.2, 0.75, 2.4), (1.3, -16.0, 1.0, 1.2)]
     spots += [(3.5, -21.0, 0.8, 3.4), (0.6, -30.0, 0.9, 3.0), (-0.9, -41.0, 1.3, 4.0), (2.6, -52.0, 1.1, 5.0)]
     spots += [(-2.4, -66.0, 1.3, 6.0), (5.4, -15.0, 0.8, 1.6)]
     for x, z, across, along in spots:
@@ -270,7 +271,7 @@ def facades(source):
             near -= width
             count += 1
             # A side street now and then lets the sky in between the roofs.
-            if count % 4 == 3:
+            if count % 4 == 2:
                 near -= 5.5
     return mesh
 

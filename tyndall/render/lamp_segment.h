@@ -26,7 +26,9 @@ class LampSegment {
     beta_ = beta / sum(beta);
     parts_.clear();
     lobes_.clear();
+    medium_ = {infinity, 0.0};
     for (const Stretch& s : stretches) {
+      medium_ = {std::min(medium_.begin, s.range.begin), std::max(medium_.end, s.range.end)};
       const double scattering = sum(beta_ * s.species->scattering), extinction = sum(beta_ * s.species->extinction);
       // Neighbours that come and go together (the species of one homogeneous medium) are one part.
       const bool joined = !parts_.empty() && s.rate == 0.0 && parts_.back().stretch.rate == 0.0 &&
@@ -112,7 +114,7 @@ class LampSegment {
 
   Approach approach(const Lamp& lamp) const {
     const LampView view = LampView::of(ray_, lamp.position);
-    Interval range{0.0, end_};
+    Interval range = medium_;
     if (lamp.spot != nullptr) range = intersection(range, cone_stretch(view, lamp.axis, lamp.spot->outer_angle));
     const double a = view.place.along;
     return {a, view.place.aside, range, range.empty() ? 0.0 : dim_after(std::clamp(a, 0.0, end_))};
@@ -174,6 +176,7 @@ class LampSegment {
 
   Ray ray_;
   double end_ = 0.0;
+  Interval medium_;  // from the first to the last of it on the segment
   Spectrum beta_;
   std::vector<Part> parts_;
   std::vector<GreyLobe> lobes_;

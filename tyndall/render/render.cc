@@ -97,7 +97,7 @@ Image render(const Scene& scene, const Geometry& geometry, const RenderSettings&
     quadrature = single_description(context);
     rendering.pass(film, tiles, settings.spp, [&](const Tile& tile, int) {
       for (int y = tile.y0; y < tile.y1; ++y) {
-        for (int x = tile.x0; x < tile.x1; ++x)
+        for (int x = tile.x0; x < tile.x1 && !rendering.stopped(); ++x)
           SampleFilm::set(film.at(x, y), single_pixel(context, x, y, settings.spp));
       }
     });
@@ -117,7 +117,7 @@ Image render(const Scene& scene, const Geometry& geometry, const RenderSettings&
               const auto hit = geometry.intersect(camera.through(x + 0.5, y + 0.5));
               pixel.depth = hit ? hit->t : infinity;
             }
-            for (int i = 0; i < samples; ++i) {
+            for (int i = 0; i < samples && !rendering.stopped(); ++i) {  // a late pass has many
               RandomStream random(settings.seed, number, static_cast<std::uint32_t>(done + i));
               const double dx = random.next(), dy = random.next();
               SampleFilm::add(pixel, tracers[static_cast<std::size_t>(thread)]->trace(camera.through(x + dx, y + dy),

@@ -1,0 +1,108 @@
+#!/usr/bin/env python3
+"""orders.py [PROGRAM]: writes docs/orders.md: how much of the three example scenes' light is scattered more than once.
+
+    python3 scripts/orders.py build/tyndall
+
+Each scene is rendered in four airs, whose extinction is chosen so that the optical depth over the scene's typical view is about
+0.3, 1, 3 and 10: by `path` (all orders) and by `single` (one scattering; at half the size). Standard library only.
+"""
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True
+import exr  # noqa: E402  (beside this script)
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+EXAMPLES = os.path.join(HERE, "..", "examples")
+DEPTHS = (0.3, 1, 3, 10)
+SIZE, SAMPLES = (64, 36), 64
+# How far one typically looks through each scene's air [m], and the profile of that air.
+VIEWS = {
+    "street": (100.0, None),
+    "room": (12.0, None),
+    "landscape": (10000.0, {"law": "exponential", "scale_height": 1000}),
+}
+LUMINANCE = (0.2126, 0.7152, 0.0722)
+
+
+def scene_in(name, depth, folder):
+    """A copy of the scene with the air of that depth, in `folder`."""
+    with open(os.path.join(EXAMPLES, name + ".scene.json"), encoding="utf-8") as file:
+        scene = json.load(file)
+    view, profile = VIEWS[name]
+    conditions = {"model": "simple", "w": 0.7, "thickness": depth / view}
+    if profile:
+        conditions["profile"] = profile
+    background = {"air": "note", "profile": {"law": "exponential", "scale_height": 8000}}
+    medium = {"format": "tyndall-medium/1", "background": background, "conditions": conditions}
+    scene["geometry"] = [os.path.relpath(os.path.join(EXAMPLES, g), folder) for g in scene["geometry"]]
+    if scene.get("volumes"):
+        for volume in scene["volumes"]:
+            volume["medium"] = medium
+        scene.pop("medium", None)
+    else:
+        scene["medium"] = medium
+    path = os.path.join(folder, name + ".scene.json")
+    with open(path, "w", encoding="utf-8") as file:
+        json.dump(scene, file)
+    return path
+
+
+def render(program, scene, integrator, size, samples):
+    out = os.path.splitext(scene)[0] + ".exr"
+    subprocess.run([program, "render", scene, "--allow-path", "--quiet", "--integrator", integrator, "--size", "%dx%d" % size, "--spp",
+                    str(samples), "-o", out], check=True, stderr=subprocess.DEVNULL)
+    return exr.read(out)[2]
+
+
+def mean(planes, layer):
+    return [sum(planes[layer + c]) / len(planes[layer + c]) for c in "RGB"]
+
+
+def luminance(rgb):
+    return sum(a * b for a, b in zip(LUMINANCE, rgb))
+
+
+def color(rgb):
+    """Red and blue over green."""
+    return "%.2f : 1 : %.2f" % (rgb[0] / rgb[1], rgb[2] / rgb[1]) if rgb[1] > 0 else "-"
+
+
+def row(program, name, depth, folder):
+    scene = scene_in(name, depth, folder)
+    path = render(program, scene, "path", SIZE, SAMPLES)
+    single = render(program, scene, "single", (SIZE[0] // 2, SIZE[1] // 2), 1)
+    first, later = mean(path, "single."), mean(path, "multiple.")
+    scattered = [a + b for a, b in zip(first, later)]
+    exact = mean(single, "single.")
+    return "| %s | %g | %.0f %% | %.0f %% | %s | %s | %.2f |" % (
+        name, depth, 100 * luminance(later) / luminance(mean(path, "")), 100 * luminance(later) / luminance(scattered), color(first),
+        color(later), luminance(exact) / luminance(scattered))
+
+
+def main():
+    program = os.path.abspath(sys.argv[1] if len(sys.argv) > 1 else os.path.join(HERE, "..", "build", "tyndall"))
+    lines = [
+        "# How much light is scattered more than once", "",
+        "Made by `python3 scripts/orders.py build/tyndall`: the example scenes at %dx%d, %d samples (`path`), in air of the simple model" % (*SIZE, SAMPLES),
+        "at w = 0.7 with albedo 1. tau is the optical depth over the view: 100 m of street, 12 m of room, 10 km of landscape at the ground.",
+        "\"Later\" is the layer `multiple`: two or more scatterings, or scattering and surface together. Colours are red : green : blue.", "",
+        "| scene | tau | later, of all light | later, of scattered light | colour of one scattering | colour of later ones | `single` over all scattered light |",
+        "|---|---|---|---|---|---|---|"]
+    with tempfile.TemporaryDirectory() as folder:
+        for name in VIEWS:
+            for depth in DEPTHS:
+                lines.append(row(program, name, depth, folder))
+                print(lines[-1], flush=True)
+    lines += ["", "A preview that stops at one scattering lacks the fourth column, and in the colour of the sixth: what an approximation of the",
+              "later orders has to supply.", ""]
+    os.makedirs(os.path.join(HERE, "..", "docs"), exist_ok=True)
+    with open(os.path.join(HERE, "..", "docs", "orders.md"), "w", encoding="utf-8") as file:
+        file.write("\n".join(lines))
+
+
+if __name__ == "__main__":
+    main()

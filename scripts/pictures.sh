@@ -1,0 +1,11 @@
+#!/bin/sh
+# pictures.sh [PROGRAM [SPP]]: renders the pictures of README.md and docs/ into docs/pictures. Some minutes.
+set -eu
+cd "$(dirname "$0")/.."
+program=${1:-build/tyndall}
+spp=${2:-64}
+mkdir -p docs/pictures
+"$program" render examples/street.scene.json --medium examples/media/street_w100.medium.json --size 640x360 --spp "$spp" \
+  -o docs/pictures/street.png
+"$program" render examples/room.scene.json --size 480x270 --spp $((spp * 2)) -o docs/pictures/room.png
+"$program" render examples/landscape.scene.json --size 480x270 --spp "$spp" -o docs/pictures/landscape.png
