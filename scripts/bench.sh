@@ -8,4 +8,5 @@ while read -r name; do
   echo "== $name"
   "$build/bin/$name" --benchmark_out="$build/bench/$name.json" --benchmark_out_format=json
 done <"$build/benches.txt"
-echo "Results: $build/bench/"
+python3 "$(dirname "$0")/bench_page.py" "$build"
+echo "Results: docs/bench.md, $build/bench/"

@@ -2,7 +2,8 @@
 
 import math
 
-from glb import Material, Mesh, add, scale
+from mesh import Material, Mesh
+from vector import add, scale
 
 PAINT = Material("car paint", (0.23, 0.02, 0.018), roughness=0.3)
 GLASS = Material("car glass", (0.012, 0.014, 0.017), roughness=0.08)
@@ -13,7 +14,7 @@ PLATE = Material("number plate", (0.75, 0.75, 0.68), roughness=0.6)
 LENS = Material("headlight lens", (0.0, 0.0, 0.0), roughness=1.0, metallic=1.0, radiance=(8.4, 9.3, 10.0))
 TAIL = Material("tail light", (0.1, 0.0, 0.0), roughness=0.5, radiance=(1.6, 0.04, 0.02))
 
-# From nose to tail: z, height of the sill, height of the widest line, height of the shoulder, half width at those three.
+# From nose to tail: z; heights of the sill, of the widest line and of the shoulder; half widths at those three.
 STATIONS = [
     (-2.08, 0.30, 0.50, 0.66, 0.66, 0.70, 0.64),
     (-1.95, 0.21, 0.52, 0.74, 0.78, 0.82, 0.74),
@@ -24,7 +25,7 @@ STATIONS = [
     (1.98, 0.26, 0.64, 0.96, 0.79, 0.82, 0.72),
     (2.10, 0.34, 0.60, 0.88, 0.72, 0.76, 0.66),
 ]
-# The corners of the glasshouse on the right side: foot and top of the windscreen, of the middle pillar, of the rear window.
+# Corners of the glasshouse on the right side: foot and top of the windscreen, the middle pillar and the rear window.
 CABIN = {
     "front": ((0.77, 0.93, -0.78), (0.57, 1.43, 0.02)),
     "middle": ((0.78, 0.96, 0.52), (0.58, 1.47, 0.58)),
@@ -69,7 +70,7 @@ def body(mesh):
 def glasshouse(mesh):
     pillars = [CABIN["front"], CABIN["middle"], CABIN["rear"]]
     for (foot, top), (next_foot, next_top) in zip(pillars, pillars[1:]):
-        # The painted frame is the whole side; the pane lies 8 mm in front of it, inset so that the frame shows as pillars.
+        # The frame is the whole side; the pane lies 8 mm in front of it, inset so that the frame shows as pillars.
         frame = [foot, top, next_top, next_foot]
         both_sides(mesh, PAINT, frame)
         middle = scale(add(add(foot, top), add(next_foot, next_top)), 0.25)

@@ -2,7 +2,7 @@
 
 import math
 
-from glb import Material, Mesh
+from mesh import Material, Mesh
 
 OAK = Material("dark oak", (0.19, 0.1, 0.052), roughness=0.45)
 TABLE_TOP = Material("table top", (0.16, 0.08, 0.04), roughness=0.35)
@@ -52,10 +52,11 @@ def chair():
 
 
 def book(mesh, spine, low, high):
-    """Lying or standing, pages showing on the faces that a cover leaves open."""
+    """A lying book whose pages show toward +X."""
     mesh.box(spine, low, high)
     (x, y, z), (X, Y, Z) = low, high
-    mesh.quad(PAGES, (X + 0.001, y + 0.006, Z - 0.008), (X + 0.001, y + 0.006, z + 0.008), (X + 0.001, Y - 0.006, z + 0.008), (X + 0.001, Y - 0.006, Z - 0.008))
+    front, low_y, high_y, low_z, high_z = X + 0.001, y + 0.006, Y - 0.006, z + 0.008, Z - 0.008
+    mesh.quad(PAGES, (front, low_y, high_z), (front, low_y, low_z), (front, high_y, low_z), (front, high_y, high_z))
 
 
 def reading(source):
@@ -64,13 +65,14 @@ def reading(source):
     for x, z, count in ((-0.3, -1.7, 5), (0.22, -1.25, 3), (0.25, 0.5, 4), (-0.28, 1.9, 2), (0.2, 2.1, 6)):
         y = 0.0
         for _ in range(count):
-            wide, deep, thick = 0.1 + 0.04 * source.random(), 0.14 + 0.05 * source.random(), 0.03 + 0.035 * source.random()
+            wide, deep = 0.1 + 0.04 * source.random(), 0.14 + 0.05 * source.random()
+            thick = 0.03 + 0.035 * source.random()
             shift = 0.04 * (source.random() - 0.5)
             spine = SPINES[int(len(SPINES) * source.random())]
             book(mesh, spine, (x - wide + shift, y, z - deep), (x + wide + shift, y + thick, z + deep))
             y += thick
     for side in (-1, 1):  # the folio: two leaves rising from the fold
-        leaf = [(0.0, 0.015, -0.05 - 0.2), (0.0, 0.015, -0.05 + 0.2), (side * 0.3, 0.05, -0.05 + 0.2), (side * 0.3, 0.05, -0.05 - 0.2)]
+        leaf = [(0.0, 0.015, -0.25), (0.0, 0.015, 0.15), (side * 0.3, 0.05, 0.15), (side * 0.3, 0.05, -0.25)]
         mesh.polygon(PAGES, leaf if side > 0 else leaf[::-1])
     candlestick = [(0.08, 0.0), (0.08, 0.015), (0.02, 0.04), (0.015, 0.2), (0.035, 0.22), (0.02, 0.24), (0.03, 0.27)]
     mesh.turned(BRASS, candlestick, 10, (-0.2, 0.75))
@@ -85,8 +87,8 @@ def globe():
     columns, lines = 32, 16
 
     def is_land(lat, lon):
-        value = math.sin(2 * lon + 1.3) * math.cos(3 * lat) + 0.6 * math.sin(5 * lon + 4 * lat) + 0.4 * math.cos(7 * lat - 3 * lon)
-        return value > 0.25
+        value = math.sin(2 * lon + 1.3) * math.cos(3 * lat) + 0.6 * math.sin(5 * lon + 4 * lat)
+        return value + 0.4 * math.cos(7 * lat - 3 * lon) > 0.25
 
     def at(j, i):
         lat, lon = math.pi * (j / lines - 0.5), 2 * math.pi * i / columns
@@ -105,10 +107,7 @@ def globe():
             if j == lines - 1:
                 del corners[2]
             mesh.polygon(LAND if land else SEA, corners)
-    ring = []
-    for low, high, inner in ((centre - 0.02, centre + 0.02, 0.4),):
-        ring = [(inner, low), (inner + 0.07, low), (inner + 0.07, high), (inner, high), (inner, low)]
-    mesh.turned(OAK, ring, 32)
+    mesh.turned(OAK, [(0.4, centre - 0.02), (0.47, centre - 0.02), (0.47, centre + 0.02), (0.4, centre + 0.02)], 32)
     for k in range(3):
         angle = 2 * math.pi * k / 3 + 0.4
         x, z = 0.43 * math.cos(angle), 0.43 * math.sin(angle)
@@ -129,7 +128,8 @@ def chandelier(drop):
     mesh.tube(OAK, [(0, 0, 0), (0, -drop + 0.9, 0)], [0.015, 0.015], 5, capped=False)
     for k in range(4):
         angle = math.pi * k / 2 + 0.3
-        mesh.tube(OAK, [(0, -drop + 0.92, 0), (radius * math.cos(angle), -drop, radius * math.sin(angle))], [0.01, 0.01], 4, capped=False)
+        rod = [(0, -drop + 0.92, 0), (radius * math.cos(angle), -drop, radius * math.sin(angle))]
+        mesh.tube(OAK, rod, [0.01, 0.01], 4, capped=False)
     for k in range(count):
         angle = 2 * math.pi * k / count
         x, z = radius * math.cos(angle), radius * math.sin(angle)
@@ -139,7 +139,8 @@ def chandelier(drop):
 
 
 def bookcase(name, width, height, source):
-    """Shelves 0.34 m deep with books; the back is at z = 0. Books show spines and tops only: nothing else is in view."""
+    """Shelves 0.34 m deep with books; the back is at z = 0. Books show spine, top and
+    one side: nothing else is in view."""
     mesh = Mesh(name)
     depth, board = 0.34, 0.04
     for x in (-width / 2, width / 2 - board):

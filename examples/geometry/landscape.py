@@ -7,7 +7,9 @@ import math
 import random
 
 import tree
-from glb import Document, Material, Mesh, perspective_camera, rotation_about_y, rotation_to_look
+from glb import Document, perspective_camera
+from mesh import Material, Mesh
+from vector import rotation_about_y, rotation_to_look
 
 CAMERA = (0.0, 152.0, 0.0)
 LOOK_AT = (0.0, 146.0, -100.0)
@@ -164,10 +166,11 @@ def build():
         document.node("ridge %d" % ridge.number, ridge.mesh(260, 12))
     document.node("knoll", knoll())
     near = [tree.conifer("fir " + name, NEEDLES, BARK, seed, tiers=13, sides=11) for name, seed in (("a", 3), ("b", 4))]
-    far = [tree.conifer("far fir " + name, NEEDLES, BARK, seed, tiers=4, sides=4) for name, seed in (("a", 5), ("b", 6))]
+    far = [tree.conifer("far fir " + name, NEEDLES, BARK, seed, 1.0, 4, 4) for name, seed in (("a", 5), ("b", 6))]
     # A stand that frames the left edge, and a few stragglers down the slope.
-    stand = [(-17.0, -38.0, 17.0), (-21.5, -46.0, 21.0), (-14.5, -52.0, 14.0), (-26.0, -58.0, 19.0), (-19.0, -63.0, 23.0)]
-    stand += [(-10.5, -60.0, 8.5), (-31.0, -72.0, 24.0), (-23.0, -80.0, 17.0), (-12.0, -76.0, 12.0), (-4.5, -88.0, 7.0)]
+    stand = [(-17.0, -38.0, 17.0), (-21.5, -46.0, 21.0), (-14.5, -52.0, 14.0), (-26.0, -58.0, 19.0)]
+    stand += [(-19.0, -63.0, 23.0), (-10.5, -60.0, 8.5), (-31.0, -72.0, 24.0), (-23.0, -80.0, 17.0)]
+    stand += [(-12.0, -76.0, 12.0), (-4.5, -88.0, 7.0)]
     stand += [(-36.0, -92.0, 20.0), (-16.5, -98.0, 15.0), (21.0, -58.0, 6.0), (27.0, -64.0, 9.0), (33.0, -70.0, 5.5)]
     for number, (x, z, height) in enumerate(stand):
         at = (x, knoll_height(x, z) - 0.3, z)

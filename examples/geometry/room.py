@@ -8,7 +8,9 @@ import random
 
 import furniture
 import texture
-from glb import Document, Material, Mesh, perspective_camera, rotation_about_y, rotation_to_look
+from glb import Document, perspective_camera
+from mesh import Material, Mesh
+from vector import rotation_about_y, rotation_to_look
 
 CAMERA = (4.3, 1.55, 1.2)
 LOOK_AT = (-3.4, 2.2, -8.0)
@@ -38,7 +40,7 @@ CANVAS = Material("painting", (0.1, 0.08, 0.06), roughness=0.4)
 
 
 def outline():
-    """A window's edge as (z off its middle, height): from the foot at low z up, over the arch, down to the other foot."""
+    """A window's edge as (z off its middle, height): from the foot at low z over the arch to the other foot."""
     points = [(-HALF_WIDTH, SILL), (-HALF_WIDTH, SPRING)]
     for k in range(1, ARC):
         angle = math.pi * (1 - k / ARC)
@@ -68,7 +70,8 @@ def window_wall():
                 quad = [(x, ya, middle + za), (x, HEIGHT, middle + za), (x, HEIGHT, middle + zb), (x, yb, middle + zb)]
                 mesh.polygon(material, quad if x == inner else quad[::-1])
         for (za, ya), (zb, yb) in zip(points, points[1:]):
-            mesh.quad(REVEAL, (outer, ya, middle + za), (outer, yb, middle + zb), (inner, yb, middle + zb), (inner, ya, middle + za))
+            za, zb = middle + za, middle + zb
+            mesh.quad(REVEAL, (outer, ya, za), (outer, yb, zb), (inner, yb, zb), (inner, ya, za))
         mesh.quad(REVEAL, (outer, SILL, z0), (inner, SILL, z0), (inner, SILL, z1), (outer, SILL, z1))
         mesh.box(PANEL, (inner, SILL - 0.05, z0 - 0.1), (inner + 0.12, SILL, z1 + 0.1), skip="x")
         edge = z0
@@ -84,7 +87,8 @@ def window_bars():
     mesh = Mesh("window bars")
     x0, x1 = LEFT - 0.36, LEFT - 0.28
     for middle in WINDOWS:
-        for offset, half in ((-HALF_WIDTH / 3, 0.028), (HALF_WIDTH / 3, 0.028), (-HALF_WIDTH, 0.06), (HALF_WIDTH, 0.06)):
+        for share, half in ((-1.0, 0.06), (-1 / 3, 0.028), (1 / 3, 0.028), (1.0, 0.06)):
+            offset = share * HALF_WIDTH
             mesh.box(BAR, (x0, SILL, middle + offset - half), (x1, SPRING, middle + offset + half), skip="yY")
         for k in range(6):
             y = SILL + (SPRING - SILL) * k / 5
@@ -95,10 +99,12 @@ def window_bars():
             angle = math.pi * k / 4
             rim = (hub[0], SPRING + HALF_WIDTH * math.sin(angle), middle + HALF_WIDTH * math.cos(angle))
             mesh.tube(BAR, [hub, rim], [0.03, 0.03], 4, capped=False)
-        arch = [(hub[0], SPRING + HALF_WIDTH * math.sin(math.pi * k / ARC), middle + HALF_WIDTH * math.cos(math.pi * k / ARC)) for k in range(ARC + 1)]
-        mesh.tube(BAR, arch, [0.055] * len(arch), 4, capped=False)
-        half_arch = [(hub[0], SPRING + 0.36 * math.sin(math.pi * k / ARC), middle + 0.36 * math.cos(math.pi * k / ARC)) for k in range(ARC + 1)]
-        mesh.tube(BAR, half_arch, [0.026] * len(half_arch), 4, capped=False)
+        for radius, thickness in ((HALF_WIDTH, 0.055), (0.5 * HALF_WIDTH, 0.026)):
+            arch = []
+            for k in range(ARC + 1):
+                angle = math.pi * k / ARC
+                arch.append((hub[0], SPRING + radius * math.sin(angle), middle + radius * math.cos(angle)))
+            mesh.tube(BAR, arch, [thickness] * len(arch), 4, capped=False)
     return mesh
 
 
@@ -145,7 +151,8 @@ def column():
 
 def rug(x0, x1, z0, z1):
     mesh = Mesh("rug")
-    for level, (inset, material) in enumerate(((0.0, RUG_BORDER), (0.22, RUG_LINE), (0.27, RUG), (0.7, RUG_LINE), (0.73, RUG))):
+    layers = [(0.0, RUG_BORDER), (0.22, RUG_LINE), (0.27, RUG), (0.7, RUG_LINE), (0.73, RUG)]
+    for level, (inset, material) in enumerate(layers):
         y = 0.008 + 0.002 * level
         a, b, c, d = x0 + inset, x1 - inset, z0 + inset, z1 - inset
         mesh.quad(material, (a, y, d), (b, y, d), (b, y, c), (a, y, c))
@@ -157,7 +164,8 @@ def painting(width, height):
     mesh = Mesh("painting")
     x, y = width / 2, height / 2
     mesh.quad(CANVAS, (-x, -y, 0.03), (x, -y, 0.03), (x, y, 0.03), (-x, y, 0.03))
-    for low, high in (((-x - 0.1, -y - 0.1), (x + 0.1, -y)), ((-x - 0.1, y), (x + 0.1, y + 0.1)), ((-x - 0.1, -y), (-x, y)), ((x, -y), (x + 0.1, y))):
+    X, Y = x + 0.1, y + 0.1
+    for low, high in (((-X, -Y), (X, -y)), ((-X, y), (X, Y)), ((-X, -y), (-x, y)), ((x, -y), (X, y))):
         mesh.box(furniture.BRASS, (*low, 0.0), (*high, 0.07), skip="z")
     return mesh
 
@@ -177,11 +185,11 @@ def build():
     board = document.node("table", furniture.table(5.2, 1.3, height), (-0.5, 0.0, -6.4))
     document.node("books on the table", furniture.reading(source), (0.0, height, 0.0), parent=board)
     seat = furniture.chair()
-    for k, (x, z, turn) in enumerate(
-        [(0.55, -4.6, -84), (0.62, -6.0, -97), (0.5, -7.6, -90), (-1.62, -4.9, 88), (-1.5, -6.7, 95), (-1.85, -8.1, 70), (-0.45, -9.6, 4), (1.5, -3.1, -62)]
-    ):
+    places = [(0.55, -4.6, -84), (0.62, -6.0, -97), (0.5, -7.6, -90), (-1.62, -4.9, 88)]
+    places += [(-1.5, -6.7, 95), (-1.85, -8.1, 70), (-0.45, -9.6, 4), (1.1, -3.3, -25)]
+    for k, (x, z, turn) in enumerate(places):
         document.node("chair %d" % k, seat, (x, 0.0, z), rotation_about_y(turn))
-    document.node("globe", furniture.globe(), (-2.75, 0.0, -3.35), rotation_about_y(30))
+    document.node("globe", furniture.globe(), (-1.5, 0.0, -2.7), rotation_about_y(30))
     document.node("chandelier", furniture.chandelier(2.35), (-0.5, HEIGHT - 0.28, -6.4))
     cases = [furniture.bookcase("bookcase " + letter, 1.9, 3.5, source) for letter in "ab"]
     for k in range(5):

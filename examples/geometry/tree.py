@@ -3,7 +3,8 @@
 import math
 import random
 
-from glb import Mesh, add, cross, normalized, scale
+from mesh import Mesh
+from vector import add, cross, normalized, scale
 
 
 def bare(name, bark, seed, height=9.0, depth=6):
