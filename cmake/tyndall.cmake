@@ -56,7 +56,8 @@ if(TYNDALL_SANITIZE OR TYNDALL_COVERAGE)
 endif()
 if(TYNDALL_SANITIZE)
   target_compile_options(tyndall_flags INTERFACE
-    -fsanitize=${TYNDALL_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    -fsanitize=${TYNDALL_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)  # guesses wrongly among the checks it has put in itself
   target_link_options(tyndall_flags INTERFACE -fsanitize=${TYNDALL_SANITIZE})
 endif()
 if(TYNDALL_COVERAGE)

@@ -52,17 +52,26 @@ class LampSegment {
     }
   }
 
-  /// Estimates what each lamp throws on the segment: from a table when `careful`, else guessed from one point.
+  /// Estimates what each lamp throws on the segment: guessed from one point, and when `careful` from a table for those
+  /// that matter.
   void promise(const std::vector<Lamp>& lamps, bool careful) {
     candidates_.clear();
     tables_.clear();
-    promise_ = 0.0;
+    double most = 0.0;
     for (std::size_t i = 0; i < lamps.size(); ++i) {
       const Approach at = approach(lamps[i]);
       if (at.range.empty()) continue;
-      if (careful) tables_.push_back(table(lamps[i], at));
-      candidates_.push_back({i, at, careful ? tables_.back().integral() : guess(lamps[i], at)});
-      promise_ += candidates_.back().worth;
+      candidates_.push_back({i, at, guess(lamps[i], at), no_table});
+      most = std::max(most, candidates_.back().worth);
+    }
+    promise_ = 0.0;
+    for (Candidate& candidate : candidates_) {
+      if (careful && candidate.worth >= 0.02 * most) {
+        candidate.table = tables_.size();
+        tables_.push_back(table(lamps[candidate.lamp], candidate.at));
+        candidate.worth = std::max(candidate.worth * 0.1, tables_.back().integral());
+      }
+      promise_ += candidate.worth;
     }
   }
 
@@ -77,8 +86,9 @@ class LampSegment {
     std::size_t k = 0;
     while (k + 1 < candidates_.size() && xi_lamp >= chance(k)) xi_lamp -= chance(k++);
     const Candidate& chosen = candidates_[k];
-    const DistanceTable::Sample at =
-        tables_.empty() ? table(lamps[chosen.lamp], chosen.at).sample(xi_choice, xi) : tables_[k].sample(xi_choice, xi);
+    const DistanceTable::Sample at = chosen.table == no_table
+                                         ? table(lamps[chosen.lamp], chosen.at).sample(xi_choice, xi)
+                                         : tables_[chosen.table].sample(xi_choice, xi);
     return {chosen.lamp, at.t, at.density * chance(k)};
   }
 
@@ -91,6 +101,7 @@ class LampSegment {
   }
 
  private:
+  static constexpr std::size_t no_table = static_cast<std::size_t>(-1);
   struct Part {
     Stretch stretch;
     double extinction, isotropic;  // at unit factor; isotropic includes 1/(4 pi)
@@ -110,6 +121,7 @@ class LampSegment {
     std::size_t lamp;
     Approach at;
     double worth;
+    std::size_t table;  // in tables_, or no_table
   };
 
   Approach approach(const Lamp& lamp) const {
@@ -181,7 +193,7 @@ class LampSegment {
   std::vector<Part> parts_;
   std::vector<GreyLobe> lobes_;
   std::vector<Candidate> candidates_;
-  std::vector<DistanceTable> tables_;  // of the candidates, when they were made with care
+  std::vector<DistanceTable> tables_;  // of the candidates that were looked at with care
   double promise_ = 0.0;
 };
 
