@@ -15,46 +15,39 @@ PhaseArrays::PhaseArrays(const LobeSum<float>& lobes, InstructionSet set)
   assert(!lobes.empty());
 }
 
-void PhaseArrays::density(const DeflectionArrays& at, std::span<float> out) const {
-  assert(at.mu.size() == out.size() && at.one_minus.size() == out.size() && at.one_plus.size() == out.size());
+PhaseKernelCall PhaseArrays::call(PhaseTask task, std::size_t count) const {
   PhaseKernelCall call{};
-  call.task = PhaseTask::density;
+  call.task = task;
   call.lobes = lobes_.data();
   call.lobe_count = static_cast<int>(lobes_.size());
-  call.count = out.size();
-  call.mu = at.mu.data();
-  call.one_minus = at.one_minus.data();
-  call.one_plus = at.one_plus.data();
-  call.value = out.data();
-  run_(&call);
+  call.count = count;
+  return call;
 }
 
-void PhaseArrays::cdf(const DeflectionArrays& at, std::span<float> out) const {
+void PhaseArrays::value(PhaseTask task, const DeflectionArrays& at, std::span<float> out) const {
   assert(at.mu.size() == out.size() && at.one_minus.size() == out.size() && at.one_plus.size() == out.size());
-  PhaseKernelCall call{};
-  call.task = PhaseTask::cdf;
-  call.lobes = lobes_.data();
-  call.lobe_count = static_cast<int>(lobes_.size());
-  call.count = out.size();
-  call.mu = at.mu.data();
-  call.one_minus = at.one_minus.data();
-  call.one_plus = at.one_plus.data();
-  call.value = out.data();
-  run_(&call);
+  PhaseKernelCall values = call(task, out.size());
+  values.mu = at.mu.data();
+  values.one_minus = at.one_minus.data();
+  values.one_plus = at.one_plus.data();
+  values.value = out.data();
+  run_(&values);
 }
+
+void PhaseArrays::density(const DeflectionArrays& at, std::span<float> out) const {
+  value(PhaseTask::density, at, out);
+}
+
+void PhaseArrays::cdf(const DeflectionArrays& at, std::span<float> out) const { value(PhaseTask::cdf, at, out); }
 
 void PhaseArrays::sample(std::span<const float> xi, const DeflectionResults& out) const {
   assert(out.mu.size() == xi.size() && out.one_minus.size() == xi.size() && out.one_plus.size() == xi.size());
-  PhaseKernelCall call{};
-  call.task = PhaseTask::sample;
-  call.lobes = lobes_.data();
-  call.lobe_count = static_cast<int>(lobes_.size());
-  call.count = xi.size();
-  call.xi = xi.data();
-  call.sampled_mu = out.mu.data();
-  call.sampled_one_minus = out.one_minus.data();
-  call.sampled_one_plus = out.one_plus.data();
-  run_(&call);
+  PhaseKernelCall samples = call(PhaseTask::sample, xi.size());
+  samples.xi = xi.data();
+  samples.sampled_mu = out.mu.data();
+  samples.sampled_one_minus = out.one_minus.data();
+  samples.sampled_one_plus = out.one_plus.data();
+  run_(&samples);
 }
 
 }  // namespace tyndall

@@ -32,6 +32,9 @@ class PhaseArrays {
   void sample(std::span<const float> xi, const DeflectionResults& out) const;
 
  private:
+  PhaseKernelCall call(PhaseTask task, std::size_t count) const;
+  void value(PhaseTask task, const DeflectionArrays& at, std::span<float> out) const;
+
   std::vector<LobeRecord> lobes_;
   PhaseKernelFunction run_;
 };
