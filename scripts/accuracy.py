@@ -4,7 +4,9 @@
     python3 scripts/accuracy.py build/tyndall ../shared/acceptance/public.json
 
 The reference data (independently computed or published values) is not part of the project; only this page and the tests that
-check the same cases read it. Standard library only.
+check the same cases read it. The laws' own errors are measured by scripts/law_accuracy.cc, compiled here with g++ for each
+instruction set of this machine; executed GLSL by the test program beside the program (`make test` builds it). Python's standard
+library only.
 """
 import json
 import math
@@ -29,10 +31,25 @@ def law(name):
     return LAWS.get(name) or {"law": "henyey_greenstein", "g": float(name[2:])}
 
 
-def chi_square_quantile(p_normal, n):
-    """Wilson and Hilferty 1931."""
-    v = 2.0 / (9.0 * n)
-    return n * (1.0 - v + p_normal * math.sqrt(v)) ** 3
+def chi_square_cdf(x, n):
+    """P(n/2, x/2), the regularised incomplete gamma function, by its series (Abramowitz and Stegun 6.5.29)."""
+    a, half = 0.5 * n, 0.5 * x
+    term = math.exp(a * math.log(half) - half - math.lgamma(a + 1)) if half > 0 else 0.0
+    total, k = 0.0, a
+    while term > 1e-17 * total or k < half:
+        total += term
+        k += 1
+        term *= half / k
+    return min(total, 1.0)
+
+
+def chi_square_quantile(p, n):
+    """By bisection."""
+    low, high = 0.0, 10.0 * n + 100.0
+    while high - low > 1e-6:
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if chi_square_cdf(middle, n) < p else (low, middle)
+    return low
 
 
 class Bench:
@@ -77,7 +94,7 @@ class Scores:
         n = len(self.rows)
         chi = sum(z * z for z, _ in self.rows)
         worst = max(self.rows, key=lambda row: abs(row[0]))
-        low, high = chi_square_quantile(-3.0902, n), chi_square_quantile(3.0902, n)
+        low, high = chi_square_quantile(0.001, n), chi_square_quantile(0.999, n)
         return "| %s | %d | %.2f (%s) | %.1f | %.1f to %.1f | %.1e |" % (
             title, n, worst[0], worst[1], chi, low, high, max(self.errors))
 
@@ -153,7 +170,13 @@ def slabs(bench, truth):
     published.add("van de Hulst R", out["reflectance"][0], out["standard_error"]["reflectance"][0], hulst["Rd_computed"])
     published.add("van de Hulst T", out["transmittance_diffuse"][0], out["standard_error"]["transmittance_diffuse"][0],
                   hulst["T_diffuse_computed"])
-    rows.append(published.table_row("published_slab (van de Hulst)"))
+    out = bench.slab([species(law("isotropic"), 32, 0)], "--mu0", "0.1")
+    published.add("DISORT 1e R", out["reflectance"][0], out["standard_error"]["reflectance"][0],
+                  truth["published_slab"]["items"][2]["flux_up_over_pi"])
+    out, disort = bench.slab([species(law("rayleigh"), 0.2, 0)], "--mu0", "0.080442"), truth["published_slab"]["items"][3]
+    for key, kind in (("computed_up", "reflectance"), ("computed_down", "transmittance_diffuse")):
+        published.add("DISORT 2b " + kind, out[kind][0], out["standard_error"][kind][0], disort[key] / (math.pi * 0.080442))
+    rows.append(published.table_row("published_slab (index 1)"))
 
     by_law, chromatic = {}, Scores()
     for item in truth["slab_flux"]["items"]:
@@ -225,6 +248,72 @@ def phases(bench, truth):
     return rows
 
 
+def instruction_sets():
+    """(name in tables, -march) of what this machine can run."""
+    with open("/proc/cpuinfo", encoding="utf-8") as file:
+        flags = set(next(line for line in file if line.startswith("flags")).split())
+    yield "SSE2", "x86-64"
+    if {"avx2", "fma", "bmi2"} <= flags:
+        yield "AVX2", "x86-64-v3"
+    if {"avx512f", "avx512bw", "avx512cd", "avx512dq", "avx512vl"} <= flags:
+        yield "AVX-512", "x86-64-v4"
+
+
+def law_errors(folder):
+    """{law: {number: {what: error}}} of scripts/law_accuracy.cc; Lanes carry their instruction set in their name."""
+    root, errors, program = os.path.dirname(HERE), {}, os.path.join(folder, "law_accuracy")
+    for name, march in instruction_sets():
+        subprocess.run(["g++", "-std=c++20", "-O2", "-ffp-contract=off", "-march=" + march, "-I" + root,
+                        os.path.join(HERE, "law_accuracy.cc"), "-o", program], check=True)
+        for line in subprocess.run([program], check=True, capture_output=True, text=True).stdout.splitlines():
+            row = json.loads(line)
+            number = "Lanes, " + name if row["number"] == "Lanes" else row["number"]
+            errors.setdefault(row["law"], {}).setdefault(number, row)
+    return errors
+
+
+def glsl_errors(program, folder):
+    """{law: {what: error}} of the printed and executed laws, from the properties that the test records; none without it."""
+    test, report = os.path.join(os.path.dirname(program), "bin", "law_functions_test"), os.path.join(folder, "glsl.json")
+    if not os.path.exists(test):
+        return {}
+    subprocess.run([test, "--gtest_filter=GlslOf/*", "--gtest_output=json:" + report], check=True, stdout=subprocess.DEVNULL)
+    with open(report, encoding="utf-8") as file:
+        suites = json.load(file)["testsuites"]
+    errors = {}
+    for suite in suites:
+        found = {key[9:]: float(x) for test in suite["testsuite"] for key, x in test.items() if key.startswith("error_of_")}
+        if found:
+            errors[suite["name"].split("/")[1]] = {
+                "density": found["density"], "cdf": found["cdf"], "sample": max(x for key, x in found.items() if key.startswith("sampled"))}
+    return errors
+
+
+def laws(program, folder):
+    """The two tables of the laws' own errors."""
+    errors, glsl = law_errors(folder), glsl_errors(program, folder)
+
+    def text(x):
+        return "inf" if x is None else "%.1e" % x
+
+    lines = ["| law | cases | integral - 1 | mean cosine | chi_2 to chi_40 | inverse: F(mu(xi)) against xi |", "|---|---|---|---|---|---|"]
+    for name, numbers in errors.items():
+        r = numbers["reference"]
+        lines.append("| %s | %d | %s |" % (name, r["cases"], " | ".join(text(r[k]) for k in ("integral", "mean_cosine", "moments", "inverse"))))
+    for numbers in errors.values():
+        numbers.pop("reference")
+    for name, row in glsl.items():
+        errors[name]["GLSL, executed"] = row
+    order = {"float": 0, "Lanes": 1, "Dual": 2, "Symbol": 3, "GLSL": 4}
+    columns = sorted(dict.fromkeys(c for numbers in errors.values() for c in numbers), key=lambda c: order[c.split(",")[0]])
+    lines += ["", "Worst relative error of density / cumulative distribution / sample against double:", "",
+              "| law | %s |" % " | ".join(columns), "|---|%s" % ("---|" * len(columns))]
+    for name, numbers in errors.items():
+        cells = [" / ".join(text(numbers[c][k]) for k in ("density", "cdf", "sample")) if c in numbers else "-" for c in columns]
+        lines.append("| %s | %s |" % (name, " | ".join(cells)))
+    return lines
+
+
 def main():
     program = os.path.abspath(sys.argv[1] if len(sys.argv) > 1 else os.path.join(HERE, "..", "build", "tyndall"))
     source = sys.argv[2] if len(sys.argv) > 2 else os.path.join(HERE, "..", "..", "shared", "acceptance", "public.json")
@@ -237,10 +326,16 @@ def main():
             "# Accuracy", "",
             "Made by `python3 scripts/accuracy.py build/tyndall` against independently computed and published values (the reference data",
             "beside the source tree; not part of the project). The same cases and more are tests: `make test`.", "",
+            "## Laws in every number: `scripts/law_accuracy.cc`, `law_functions_test`", "",
+            "The double form against quadrature over the sphere, at the tests' hard parameters (|g| to 0.9999) and xi from 1e-100 to 1 - 1e-15;",
+            "the inverse relative to xi and to 1 - xi. Absolute errors but for the inverse.", "",
+            *laws(program, folder), "",
+            "Samples count relative to the nearer end, 1 - mu or 1 + mu, and to the condition of the inverse (a gap between lobes magnifies the",
+            "rounding of xi). Dual: of the density its value, of the distribution and the sample their derivatives. Symbol: the recorded",
+            "expression evaluated in double. 2e-6 is what the tests allow GLSL, 1e-6 float and Lanes.", "",
             "## Phase functions: `tyndall phase`", "",
             "| law | worst relative error of p at 11 angles | worst absolute error of chi_0 to chi_8 |", "|---|---|---|", *phases(bench, truth), "",
-            "Angles reach the program as cosines, so the error of a forward peak is that of a rounded cosine. Float, SIMD, dual and",
-            "executed GLSL forms are held to this double form by the tests of `tyndall/phase` and `tyndall/export`.", "",
+            "Angles reach the program as cosines, so the error of a forward peak is that of a rounded cosine.", "",
             "## Multiple scattering: `tyndall slab`, %d paths" % PATHS, "",
             "z is (estimate - truth) / standard error.", "", *head, *slabs(bench, truth), "",
             "## Single scattering: `tyndall probe`", "",

@@ -4,9 +4,11 @@
     python3 scripts/orders.py build/tyndall
 
 Each scene is rendered in four airs, whose extinction is chosen so that the optical depth over the scene's typical view is about
-0.3, 1, 3 and 10: by `path` (all orders) and by `single` (one scattering; at half the size). Standard library only.
+0.3, 1, 3 and 10: by `path` (all orders; several seeds, whose spread gives the errors) and by `single` (one scattering). Standard
+library only.
 """
 import json
+import math
 import os
 import subprocess
 import sys
@@ -18,10 +20,10 @@ import exr  # noqa: E402  (beside this script)
 HERE = os.path.dirname(os.path.abspath(__file__))
 EXAMPLES = os.path.join(HERE, "..", "examples")
 DEPTHS = (0.3, 1, 3, 10)
-SIZE, SAMPLES = (64, 36), 64
+SIZE, SAMPLES, SEEDS = (80, 45), 32, 4
 # How far one typically looks through each scene's air [m], and the profile of that air.
 VIEWS = {
-    "street": (100.0, None),
+    "street": (100.0, {"law": "exponential", "scale_height": 40}),
     "room": (12.0, None),
     "landscape": (10000.0, {"law": "exponential", "scale_height": 1000}),
 }
@@ -51,19 +53,23 @@ def scene_in(name, depth, folder):
     return path
 
 
-def render(program, scene, integrator, size, samples):
+def render(program, scene, integrator, seed):
     out = os.path.splitext(scene)[0] + ".exr"
-    subprocess.run([program, "render", scene, "--allow-path", "--quiet", "--integrator", integrator, "--size", "%dx%d" % size, "--spp",
-                    str(samples), "-o", out], check=True, stderr=subprocess.DEVNULL)
+    subprocess.run([program, "render", scene, "--allow-path", "--quiet", "--integrator", integrator, "--size", "%dx%d" % SIZE, "--spp",
+                    str(SAMPLES), "--seed", str(seed), "-o", out], check=True, stdout=subprocess.DEVNULL)
     return exr.read(out)[2]
 
 
 def mean(planes, layer):
-    return [sum(planes[layer + c]) / len(planes[layer + c]) for c in "RGB"]
+    return [math.fsum(planes[layer + c]) / len(planes[layer + c]) for c in "RGB"]
 
 
 def luminance(rgb):
     return sum(a * b for a, b in zip(LUMINANCE, rgb))
+
+
+def average(colors):
+    return [sum(c) / len(colors) for c in zip(*colors)]
 
 
 def color(rgb):
@@ -71,24 +77,36 @@ def color(rgb):
     return "%.2f : 1 : %.2f" % (rgb[0] / rgb[1], rgb[2] / rgb[1]) if rgb[1] > 0 else "-"
 
 
+def share(parts, wholes):
+    """sum(parts) / sum(wholes) in luminance, and its standard error from the spread of the runs (delta method)."""
+    a, b = [luminance(p) for p in parts], [luminance(w) for w in wholes]
+    ratio, n = sum(a) / sum(b), len(a)
+    spread = math.sqrt(sum((x - ratio * y) ** 2 for x, y in zip(a, b)) / (n * (n - 1))) / (sum(b) / n)
+    return ratio, spread
+
+
+def percent(ratio, error):
+    return "%.1f ± %.1f %%" % (100 * ratio, 100 * error)
+
+
 def row(program, name, depth, folder):
     scene = scene_in(name, depth, folder)
-    path = render(program, scene, "path", SIZE, SAMPLES)
-    single = render(program, scene, "single", (SIZE[0] // 2, SIZE[1] // 2), 1)
-    first, later = mean(path, "single."), mean(path, "multiple.")
-    scattered = [a + b for a, b in zip(first, later)]
-    exact = mean(single, "single.")
-    return "| %s | %g | %.0f %% | %.0f %% | %s | %s | %.2f |" % (
-        name, depth, 100 * luminance(later) / luminance(mean(path, "")), 100 * luminance(later) / luminance(scattered), color(first),
-        color(later), luminance(exact) / luminance(scattered))
+    runs = [render(program, scene, "path", seed) for seed in range(1, SEEDS + 1)]
+    all_light, first, later = ([mean(run, layer) for run in runs] for layer in ("", "single.", "multiple."))
+    scattered = [[a + b for a, b in zip(f, l)] for f, l in zip(first, later)]
+    exact = [mean(render(program, scene, "single", 1), "single.")] * SEEDS
+    return "| %s | %g | %s | %s | %s | %s | %.3f ± %.3f |" % (
+        name, depth, percent(*share(later, all_light)), percent(*share(later, scattered)), color(average(first)), color(average(later)),
+        *share(exact, scattered))
 
 
 def main():
     program = os.path.abspath(sys.argv[1] if len(sys.argv) > 1 else os.path.join(HERE, "..", "build", "tyndall"))
     lines = [
         "# How much light is scattered more than once", "",
-        "Made by `python3 scripts/orders.py build/tyndall`: the example scenes at %dx%d, %d samples (`path`), in air of the simple model" % (*SIZE, SAMPLES),
-        "at w = 0.7 with albedo 1. tau is the optical depth over the view: 100 m of street, 12 m of room, 10 km of landscape at the ground.",
+        "Made by `python3 scripts/orders.py build/tyndall`: the example scenes at %dx%d by `path` with %d times %d samples, in air of the" % (*SIZE, SEEDS, SAMPLES),
+        "simple model at w = 0.7 with albedo 1. tau is the optical depth over the view: 100 m of street (scale height 40 m), 12 m of room,",
+        "10 km of landscape (scale height 1 km), at the ground. Shares are of mean luminance, ± one standard error.",
         "\"Later\" is the layer `multiple`: two or more scatterings, or scattering and surface together. Colours are red : green : blue.", "",
         "| scene | tau | later, of all light | later, of scattered light | colour of one scattering | colour of later ones | `single` over all scattered light |",
         "|---|---|---|---|---|---|---|"]
