@@ -4,7 +4,7 @@
 
 #include "tyndall/medium/free_flight.h"
 #include "tyndall/medium/scatter.h"
-#include "tyndall/sampling/philox.h"
+#include "tyndall/sampling/random_stream.h"
 
 int main() {
   using namespace tyndall;

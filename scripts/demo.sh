@@ -4,8 +4,8 @@
 set -eu
 program=$1
 out=$2
-size=${SIZE:-480x270}
-spp=${SPP:-8}
+size=${SIZE:-400x225}
+spp=${SPP:-12}
 cd "$(dirname "$0")/.."
 mkdir -p "$out"
 out=$(cd "$out" && pwd)

@@ -20,7 +20,8 @@ import exr  # noqa: E402  (beside this script)
 HERE = os.path.dirname(os.path.abspath(__file__))
 EXAMPLES = os.path.join(HERE, "..", "examples")
 DEPTHS = (0.3, 1, 3, 10)
-SIZE, SAMPLES, SEEDS = (80, 45), 32, 4
+SIZE, SAMPLES, SEEDS = (96, 54), 32, 4
+SINGLE_SIZE = (32, 18)  # exact, but slow where many windows shine
 # How far one typically looks through each scene's air [m], and the profile of that air.
 VIEWS = {
     "street": (100.0, {"law": "exponential", "scale_height": 40}),
@@ -53,9 +54,9 @@ def scene_in(name, depth, folder):
     return path
 
 
-def render(program, scene, integrator, seed):
+def render(program, scene, integrator, size, seed):
     out = os.path.splitext(scene)[0] + ".exr"
-    subprocess.run([program, "render", scene, "--allow-path", "--quiet", "--integrator", integrator, "--size", "%dx%d" % SIZE, "--spp",
+    subprocess.run([program, "render", scene, "--allow-path", "--quiet", "--integrator", integrator, "--size", "%dx%d" % size, "--spp",
                     str(SAMPLES), "--seed", str(seed), "-o", out], check=True, stdout=subprocess.DEVNULL)
     return exr.read(out)[2]
 
@@ -91,10 +92,10 @@ def percent(ratio, error):
 
 def row(program, name, depth, folder):
     scene = scene_in(name, depth, folder)
-    runs = [render(program, scene, "path", seed) for seed in range(1, SEEDS + 1)]
+    runs = [render(program, scene, "path", SIZE, seed) for seed in range(1, SEEDS + 1)]
     all_light, first, later = ([mean(run, layer) for run in runs] for layer in ("", "single.", "multiple."))
     scattered = [[a + b for a, b in zip(f, l)] for f, l in zip(first, later)]
-    exact = [mean(render(program, scene, "single", 1), "single.")] * SEEDS
+    exact = [mean(render(program, scene, "single", SINGLE_SIZE, 1), "single.")] * SEEDS
     return "| %s | %g | %s | %s | %s | %s | %.3f ± %.3f |" % (
         name, depth, percent(*share(later, all_light)), percent(*share(later, scattered)), color(average(first)), color(average(later)),
         *share(exact, scattered))
@@ -106,7 +107,8 @@ def main():
         "# How much light is scattered more than once", "",
         "Made by `python3 scripts/orders.py build/tyndall`: the example scenes at %dx%d by `path` with %d times %d samples, in air of the" % (*SIZE, SEEDS, SAMPLES),
         "simple model at w = 0.7 with albedo 1. tau is the optical depth over the view: 100 m of street (scale height 40 m), 12 m of room,",
-        "10 km of landscape (scale height 1 km), at the ground. Shares are of mean luminance, ± one standard error.",
+        "10 km of landscape (scale height 1 km), at the ground. Shares are of mean luminance, ± one standard error of `path`; `single` is",
+        "without noise, of %dx%d of the same view." % SINGLE_SIZE,
         "\"Later\" is the layer `multiple`: two or more scatterings, or scattering and surface together. Colours are red : green : blue.", "",
         "| scene | tau | later, of all light | later, of scattered light | colour of one scattering | colour of later ones | `single` over all scattered light |",
         "|---|---|---|---|---|---|---|"]

@@ -6,7 +6,7 @@ from mesh import Material, Mesh
 from vector import add, scale
 
 PAINT = Material("car paint", (0.23, 0.02, 0.018), roughness=0.3)
-GLASS = Material("car glass", (0.012, 0.014, 0.017), roughness=0.08)
+GLASS = Material("car glass", (0.012, 0.014, 0.017), roughness=0.25)
 RUBBER = Material("rubber", (0.015, 0.015, 0.015), roughness=0.9)
 RIM = Material("rim", (0.45, 0.45, 0.46), roughness=0.35)
 TRIM = Material("trim", (0.02, 0.02, 0.022), roughness=0.6)

@@ -15,7 +15,7 @@ WALLS = [
 ]
 TRIM = Material("stone trim", (0.36, 0.34, 0.3))
 ROOF = Material("roof", (0.035, 0.035, 0.04))
-PANE = Material("dark pane", (0.012, 0.014, 0.018), roughness=0.1)
+PANE = Material("dark pane", (0.012, 0.014, 0.018), roughness=0.25)
 DOOR = Material("door", (0.05, 0.028, 0.02), roughness=0.5)
 LIT = [
     Material("lit window, tungsten", (0.1, 0.1, 0.1), radiance=(0.95, 0.52, 0.2)),

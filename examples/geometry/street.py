@@ -39,8 +39,8 @@ CAR_YAW = 180.0 - 31.0  # turning into a yard on the left: the beams cross the p
 
 MARKER_DISTANCES = (25, 50, 100, 200)
 
-ASPHALT = Material("wet asphalt", (0.8, 0.8, 0.82), roughness=0.26, texture=texture.asphalt(), tile=4.0)
-PUDDLE = Material("puddle", (0.016, 0.017, 0.019), roughness=0.13)
+ASPHALT = Material("wet asphalt", (0.8, 0.8, 0.82), roughness=0.34, texture=texture.asphalt(), tile=4.0)
+PUDDLE = Material("puddle", (0.016, 0.017, 0.019), roughness=0.2)
 SLABS = Material("pavement", (0.13, 0.125, 0.12), roughness=0.5)
 JOINT = Material("pavement joint", (0.05, 0.05, 0.05), roughness=0.7)
 STONE = Material("kerb stone", (0.26, 0.25, 0.23), roughness=0.45)

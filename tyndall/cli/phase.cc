@@ -14,6 +14,7 @@
 #include "tyndall/document/medium_file.h"
 #include "tyndall/document/medium_summary.h"
 #include "tyndall/document/spelling.h"
+#include "tyndall/phase/merged_lobes.h"
 
 namespace tyndall {
 namespace {
@@ -46,7 +47,7 @@ struct Subject {
 Subject subject_of(const std::string& text) {
   if (is_law_text(text)) {
     const Law<double> law = law_from_text(text);
-    return {{lower(law)}, law, text};
+    return {{merged(lower(law))}, law, text};
   }
   std::error_code error;
   const std::string word = text.substr(0, text.find(':'));

@@ -1,5 +1,9 @@
 #include "tyndall/document/medium_summary.h"
 
+#include <utility>
+
+#include "tyndall/phase/merged_lobes.h"
+
 namespace tyndall {
 
 MediumSummary summary_of(const Medium& medium, const Vector& point) {
@@ -40,6 +44,7 @@ std::array<LobeSum<double>, channel_count> mixture_at(const Medium& medium, cons
       for (const auto& part : lower(s.phase)) out[c].push_back({scattering[c] / total[c] * part.weight, part.lobe});
     }
   }
+  for (LobeSum<double>& lobes : out) lobes = merged(std::move(lobes));
   return out;
 }
 

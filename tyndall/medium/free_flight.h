@@ -7,14 +7,18 @@
 namespace tyndall {
 
 /// The t < end at which the optical depth of `channel` reaches depth > 0; infinity if it does not before end.
-/// Closed form for one stretch and for constant density; else Newton steps kept inside a bracket (relative error
+/// Closed form for stretches alike and for constant density; else Newton steps kept inside a bracket (relative error
 /// 1e-14).
 inline double distance_at_depth(const std::vector<Stretch>& stretches, std::size_t channel, double depth, double end) {
-  double constant_rate = 0.0, high = infinity;
-  bool constant = true;
+  double constant_rate = 0.0, high = infinity, alike_extinction = 0.0;
+  bool constant = true, alike = true;
+  const Stretch* first = nullptr;
   for (const Stretch& s : stretches) {
     const double extinction = s.species->extinction[channel];
     if (extinction == 0.0) continue;
+    if (first == nullptr) first = &s;
+    alike = alike && s.like(*first);
+    alike_extinction += extinction;
     constant = constant && s.rate == 0.0 && s.range.begin == 0.0 && s.range.end >= end;
     constant_rate += extinction * s.factor;
     high = std::min(high, s.distance_at(depth / extinction));  // alone it gets there no earlier than all together
@@ -23,7 +27,11 @@ inline double distance_at_depth(const std::vector<Stretch>& stretches, std::size
     const double t = depth / constant_rate;
     return t < end ? t : infinity;
   }
-  if (stretches.size() == 1) return high < end ? high : infinity;
+  if (first == nullptr) return infinity;
+  if (alike) {
+    const double t = first->distance_at(depth / alike_extinction);
+    return t < end ? t : infinity;
+  }
   high = std::min(high, end);
   const auto depth_at = [&](double t) {
     double sum = 0.0;

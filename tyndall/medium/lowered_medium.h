@@ -5,6 +5,7 @@
 
 #include "tyndall/geometry/shape.h"
 #include "tyndall/medium/medium.h"
+#include "tyndall/phase/merged_lobes.h"
 
 namespace tyndall {
 
@@ -45,7 +46,7 @@ inline void add(LoweredMedium& lowered, const Medium& medium) {
     if (is_zero(from.extinction())) continue;
     LoweredSpecies s{from.scattering, from.absorption, from.extinction(), 0.0, 0.0, {}, {}, lowered.lobes.size(), 0};
     for (const Profile& profile : from.profiles) std::visit(Apply{s}, profile);
-    for (auto& lobe : lower(from.phase)) lowered.lobes.push_back(lobe);
+    for (auto& lobe : merged(lower(from.phase))) lowered.lobes.push_back(lobe);
     s.lobe_count = lowered.lobes.size() - s.first_lobe;
     lowered.species.push_back(std::move(s));
   }
@@ -64,6 +65,13 @@ struct Stretch {
   double factor;      // at range.begin; may underflow to 0 high above an air that the ray descends into
   double rate;        // [1/m] along the ray; negative when the ray descends into thicker air
   double log_factor;  // what factor is the exponential of
+
+  /// Whether the other is as dense everywhere: species of one conditions share a profile, whose exponentials need be
+  /// computed only once.
+  bool like(const Stretch& other) const {
+    return rate == other.rate && log_factor == other.log_factor && range.begin == other.range.begin &&
+           range.end == other.range.end;
+  }
 
   /// Density factor at t inside the range.
   double factor_at(double t) const { return rate == 0.0 ? factor : std::exp(log_factor - rate * (t - range.begin)); }
@@ -115,8 +123,11 @@ inline void stretches_along(const LoweredMedium& medium, const Ray& ray, double 
 /// Optical depth per channel from the ray's origin to t.
 inline Spectrum optical_depth(const std::vector<Stretch>& stretches, double t) {
   Spectrum depth;
+  const Stretch* before = nullptr;
+  double length = 0.0;
   for (const Stretch& s : stretches) {
-    const double length = s.depth_to(t);
+    if (before == nullptr || !s.like(*before)) length = s.depth_to(t);
+    before = &s;
     for (std::size_t c = 0; c < channel_count; ++c) {
       // 0 * infinity: a species without extinction in this channel stays transparent over any length.
       if (s.species->extinction[c] > 0.0) depth[c] += s.species->extinction[c] * length;
@@ -138,8 +149,13 @@ inline Spectrum transmittance(const LoweredMedium& medium, const Ray& ray, doubl
 /// Extinction per channel at t [1/m].
 inline Spectrum extinction_at(const std::vector<Stretch>& stretches, double t) {
   Spectrum total;
+  const Stretch* before = nullptr;
+  double factor = 0.0;
   for (const Stretch& s : stretches) {
-    if (t >= s.range.begin && t < s.range.end) total += s.species->extinction * s.factor_at(t);
+    if (t < s.range.begin || t >= s.range.end) continue;
+    if (before == nullptr || !s.like(*before)) factor = s.factor_at(t);
+    before = &s;
+    total += s.species->extinction * factor;
   }
   return total;
 }

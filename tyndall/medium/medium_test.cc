@@ -7,7 +7,7 @@
 #include "tyndall/medium/free_flight.h"
 #include "tyndall/medium/scatter.h"
 #include "tyndall/sampling/direction.h"
-#include "tyndall/sampling/philox.h"
+#include "tyndall/sampling/random_stream.h"
 
 namespace tyndall {
 namespace {
@@ -183,6 +183,21 @@ TEST(Scatter, AMixtureIsChromaticAndItsSamplesMatchEveryChannel) {
     EXPECT_NEAR(sum_w[c] / n, 1.0, 5.0 * error);
     EXPECT_NEAR(sum_mu[c] / n, expected[c], 5.0 * error);
   }
+}
+
+TEST(LoweredMedium, NamesEachLobeOfASpeciesOnce) {
+  Mixture<double> mixture;
+  for (int i = 0; i < 1000; ++i) mixture.parts.push_back({1.0, HenyeyGreenstein<double>{0.1 * (i % 2 + 1)}});
+  Species species;
+  species.scattering = Spectrum::grey(1.0);
+  species.phase = mixture;
+  Medium medium;
+  medium.species = {species, species};
+  const LoweredMedium lowered = lower(medium);
+  ASSERT_EQ(lowered.species.size(), 2u);
+  EXPECT_EQ(lowered.species[1].first_lobe, 2u);
+  EXPECT_EQ(lowered.species[1].lobe_count, 2u);
+  for (const auto& part : lowered.lobes) EXPECT_NEAR(part.weight, 0.5, 1e-12);
 }
 
 }  // namespace

@@ -14,9 +14,13 @@ class ScatterPoint {
   void set(const LoweredMedium& medium, const std::vector<Stretch>& stretches, double t) {
     lobes_.clear();
     scattering_ = {};
+    const Stretch* before = nullptr;
+    double factor = 0.0;
     for (const Stretch& s : stretches) {
       if (t < s.range.begin || t >= s.range.end) continue;
-      const Spectrum scattering = s.species->scattering * s.factor_at(t);
+      if (before == nullptr || !s.like(*before)) factor = s.factor_at(t);
+      before = &s;
+      const Spectrum scattering = s.species->scattering * factor;
       if (is_zero(scattering)) continue;
       scattering_ += scattering;
       for (std::size_t i = 0; i < s.species->lobe_count; ++i) {

@@ -7,6 +7,7 @@
 #include "tyndall/number/dual.h"
 #include "tyndall/phase/law_as.h"
 #include "tyndall/phase/law_cases_test.h"
+#include "tyndall/phase/merged_lobes.h"
 #include "tyndall/phase/sphere_integral_test.h"
 
 namespace tyndall {
@@ -184,6 +185,49 @@ TEST(Mixture, FlattensWhatIsNested) {
   EXPECT_NEAR(lobes[0].weight, 1.0 / 6.0, 1e-15);
   EXPECT_NEAR(lobes[1].weight, 1.0 / 6.0, 1e-15);
   EXPECT_NEAR(lobes[2].weight, 2.0 / 3.0, 1e-15);
+}
+
+TEST(MergedLobes, KeepEachLobeOnceWhereItFirstStood) {
+  using Forward = HenyeyGreensteinLobe<double>;
+  const LobeSum<double> sum = merged(LobeSum<double>{{0.125, Forward::of(0.5)},
+                                                     {0.25, PowerLobe<double>{8}},
+                                                     {0.0625, RayleighLobe<double>{0.5}},
+                                                     {0.25, Forward::of(0.5)},
+                                                     {0.0625, IsotropicLobe<double>{}},
+                                                     {0.125, PowerLobe<double>{8}},
+                                                     {0.125, IsotropicLobe<double>{}}});
+  ASSERT_EQ(sum.size(), 4U);
+  EXPECT_EQ(std::get<Forward>(sum[0].lobe).g, 0.5);
+  EXPECT_EQ(sum[0].weight, 0.375);
+  EXPECT_EQ(std::get<PowerLobe<double>>(sum[1].lobe).n, 8);
+  EXPECT_EQ(sum[1].weight, 0.375);
+  EXPECT_EQ(std::get<RayleighLobe<double>>(sum[2].lobe).gamma, 0.5);
+  EXPECT_EQ(sum[2].weight, 0.0625);
+  EXPECT_TRUE(std::holds_alternative<IsotropicLobe<double>>(sum[3].lobe));
+  EXPECT_EQ(sum[3].weight, 0.1875);
+}
+
+TEST(MergedLobes, LeaveApartWhatDiffersInTheLastBit) {
+  using Forward = HenyeyGreensteinLobe<double>;
+  const LobeSum<double> sum{{0.25, Forward::of(0.5)},
+                            {0.25, Forward::of(std::nextafter(0.5, 1.0))},
+                            {0.25, RayleighLobe<double>{0.5}},
+                            {0.25, Forward::of(-0.5)}};
+  EXPECT_EQ(merged(sum).size(), 4U);
+  EXPECT_EQ(merged(LobeSum<double>{{0.5, Forward::of(0.0)}, {0.5, Forward::of(-0.0)}}).size(), 1U);
+  EXPECT_TRUE(merged(LobeSum<double>{}).empty());
+}
+
+TEST(MergedLobes, ScatterAsEveryLawDidBefore) {
+  for (const Law<double>& law : law_cases<Mixture<double>>()) {
+    SCOPED_TRACE(words(law));
+    const LobeSum<double> all = lower(law), few = merged(all);
+    EXPECT_LE(few.size(), all.size());
+    for (const Deflection<double>& d : test_deflections()) {
+      EXPECT_NEAR(density(few, d), density(all, d), 1e-14 * density(all, d));
+      EXPECT_NEAR(survival(few, d), survival(all, d), 1e-14 * survival(all, d));
+    }
+  }
 }
 
 TEST(Deflection, CarriesItsEndsWithAllTheirDigits) {

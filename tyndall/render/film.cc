@@ -1,5 +1,6 @@
 #include "tyndall/render/film.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -13,6 +14,12 @@ float as_float(double x) {
 }
 
 }  // namespace
+
+std::pair<std::uint32_t, std::uint32_t> SampleFilm::samples_taken() const {
+  const auto [least, most] = std::minmax_element(pixels_.begin(), pixels_.end(),
+                                                 [](const Pixel& a, const Pixel& b) { return a.samples < b.samples; });
+  return {least->samples, most->samples};
+}
 
 double SampleFilm::noise() const {
   double mean = 0.0;

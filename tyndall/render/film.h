@@ -1,5 +1,6 @@
 #pragma once
 // Where samples are gathered: per pixel, in double, in the order of their numbers.
+#include <utility>
 #include <vector>
 
 #include "tyndall/image/image.h"
@@ -52,7 +53,11 @@ class SampleFilm {
     pixel.beauty_squared = mean_beauty(pixel) * mean_beauty(pixel);
   }
 
-  /// Mean over the pixels of standard error / (value + 2 % of the picture's mean), in luminance: how noisy it looks.
+  /// Least and most samples of any pixel.
+  std::pair<std::uint32_t, std::uint32_t> samples_taken() const;
+
+  /// Mean over the pixels of standard error / (value + 2 % of the picture's mean), in luminance: how noisy it looks, at
+  /// most: even samples (RandomStream) do better than the independent ones that this supposes.
   double noise() const;
 
   /// The layers of an image file: beauty, single, surface, multiple, transmittance, depth.Z, variance. Pixels without

@@ -6,6 +6,7 @@
 #include "tyndall/medium/free_flight.h"
 #include "tyndall/render/distance_table.h"
 #include "tyndall/render/path_lights.h"
+#include "tyndall/render/quick_exp.h"
 
 namespace tyndall {
 
@@ -30,13 +31,13 @@ class LampSegment {
     for (const Stretch& s : stretches) {
       medium_ = {std::min(medium_.begin, s.range.begin), std::max(medium_.end, s.range.end)};
       const double scattering = sum(beta_ * s.species->scattering), extinction = sum(beta_ * s.species->extinction);
-      // Neighbours that come and go together (the species of one homogeneous medium) are one part.
-      const bool joined = !parts_.empty() && s.rate == 0.0 && parts_.back().stretch.rate == 0.0 &&
+      // Neighbours that come and go together (the species of one medium) are one part.
+      const bool joined = !parts_.empty() && parts_.back().stretch.rate == s.rate &&
                           parts_.back().stretch.range.begin == s.range.begin &&
                           parts_.back().stretch.range.end == s.range.end;
       if (!joined) parts_.push_back({s, 0.0, 0.0, lobes_.size(), lobes_.size()});
       Part& part = parts_.back();
-      const double factor = joined ? s.factor / part.stretch.factor : 1.0;
+      const double factor = joined ? std::exp(s.log_factor - part.stretch.log_factor) : 1.0;
       part.extinction += extinction * factor;
       for (std::size_t i = 0; i < s.species->lobe_count; ++i) {
         const WeightedLobe<double>& lobe = medium.lobes[s.species->first_lobe + i];
@@ -115,7 +116,6 @@ class LampSegment {
   struct Approach {
     double a, h;
     Interval range;
-    double cut;  // beyond it, too little light is left to tabulate
   };
   struct Candidate {
     std::size_t lamp;
@@ -129,17 +129,19 @@ class LampSegment {
     Interval range = medium_;
     if (lamp.spot != nullptr) range = intersection(range, cone_stretch(view, lamp.axis, lamp.spot->outer_angle));
     const double a = view.place.along;
-    return {a, view.place.aside, range, range.empty() ? 0.0 : dim_after(std::clamp(a, 0.0, end_))};
+    return {a, view.place.aside, range};
   }
 
   DistanceTable table(const Lamp& lamp, const Approach& at) const {
-    return DistanceTable(at.range, at.a, at.h, at.cut, [&](double t) { return promised(lamp, at, t); });
+    return DistanceTable(at.range, at.a, at.h, dim_after(std::clamp(at.a, 0.0, end_)),
+                         [&](double t) { return promised(lamp, at, t); });
   }
 
   /// Integrand in the middle of the angle under which the lamp sees the segment, times that angle.
   double guess(const Lamp& lamp, const Approach& at) const {
     const double h = std::max(at.h, 1e-6 * (1.0 + std::fabs(at.a)));
-    const double begin = at.range.begin - at.a, end = std::min(at.range.end, at.cut) - at.a;
+    const double begin = at.range.begin - at.a,
+                 end = std::min(at.range.end, dim_nearly_after(std::clamp(at.a, 0.0, end_))) - at.a;
     if (!(end > begin)) return 0.0;
     // Unit vectors from the lamp to both ends; their sum halves the angle.
     const double r0 = 1.0 / std::sqrt(begin * begin + h * h),
@@ -148,6 +150,22 @@ class LampSegment {
     const double angle = std::atan2(h * (r0 * sine1 - begin * r0 * r1), h * h * r0 * r1 + begin * r0 * sine1);
     const double middle = at.a + h * (begin * r0 + sine1) / (h * (r0 + r1));
     return promised(lamp, at, std::max(middle, at.range.begin)) * angle / h;
+  }
+
+  /// A stretch's density factor at t and depth up to there, nearly (factor_at and depth_to).
+  struct PartAt {
+    double factor, depth;
+  };
+  static PartAt part_at(const Stretch& stretch, double t) {
+    if (!(t >= stretch.range.begin)) return {0.0, 0.0};
+    const bool inside = t < stretch.range.end;
+    const double s = (inside ? t : stretch.range.end) - stretch.range.begin;
+    if (stretch.rate == 0.0) return {inside ? stretch.factor : 0.0, stretch.factor * s};
+    const double there = quick_exp(stretch.log_factor - stretch.rate * s);
+    // Where the difference is all rounding, the mean of both ends is good.
+    const double depth = std::fabs(stretch.rate * s) < 0.05 ? 0.5 * (stretch.factor + there) * s
+                                                            : (stretch.factor - there) / stretch.rate;
+    return {inside ? there : 0.0, depth};
   }
 
   /// Light scattered back along the segment at t, times r^2. The lamp's own path is taken to see the extinction at t
@@ -162,17 +180,17 @@ class LampSegment {
     const Deflection<double> d{mu, along > 0.0 ? far : 1.0 - mu, along > 0.0 ? 1.0 + mu : far};
     double depth = 0.0, extinction = 0.0, scattered = 0.0;
     for (const Part& part : parts_) {
-      depth += part.extinction * part.stretch.depth_to(t);
-      if (t < part.stretch.range.begin || t >= part.stretch.range.end) continue;
-      const double factor = part.stretch.factor_at(t);
-      extinction += part.extinction * factor;
+      const PartAt here = part_at(part.stretch, t);
+      depth += part.extinction * here.depth;
+      if (here.factor == 0.0) continue;
+      extinction += part.extinction * here.factor;
       double density = part.isotropic;
       for (std::size_t i = part.first_lobe; i < part.last_lobe; ++i) {
         density += lobes_[i].weight * std::visit([&](const auto& lobe) { return lobe.density(d); }, *lobes_[i].lobe);
       }
-      scattered += factor * density;
+      scattered += here.factor * density;
     }
-    return power * scattered * std::exp(-(depth + extinction * r));
+    return power * scattered * quick_exp(-(depth + extinction * r));
   }
 
   /// Where the light has paid an optical depth of 14 more than at t, the closest approach: up to there what the segment
@@ -184,6 +202,13 @@ class LampSegment {
         dim = std::min(dim, part.stretch.distance_at(part.stretch.depth_to(t) + 14.0 / part.extinction));
     }
     return dim;
+  }
+
+  /// The same for air as thick everywhere as at t.
+  double dim_nearly_after(double t) const {
+    double extinction = 0.0;
+    for (const Part& part : parts_) extinction += part.extinction * part_at(part.stretch, t).factor;
+    return extinction > 0.0 ? t + 14.0 / extinction : end_;
   }
 
   Ray ray_;

@@ -27,6 +27,10 @@ struct Walk {
   int depth() const { return scatterings + bounces; }
 };
 
+/// More than an event of a walk uses unless there are many suns: even samples (RandomStream) stay so from event to
+/// event.
+constexpr std::uint32_t event_dimensions = 32;
+
 /// Weight of the strategy of density a against one of density b (balance heuristic; Veach 1997).
 double balance(double a, double b) { return a / (a + b); }
 
@@ -79,6 +83,7 @@ struct PathTracer::State {
     Walk through = walk;
     through.beta *= out.transmittance;
     const std::vector<Stretch> seen = stretches;
+    random.begin_branch(1);
     if (!is_zero(through.beta)) {
       if (hit) {
         if (bounce(through, *hit, random)) follow(through, random);
@@ -88,7 +93,9 @@ struct PathTracer::State {
     }
     if (!may_go_on(walk)) return out;
     stretches = seen;
+    random.begin_branch(2);
     suns_along(walk, end, random);
+    random.begin_branch(3);
     const Flight flight = sample_flight(stretches, walk.beta, end, true, random.next(), random.next());
     if (flight.t < end) {
       walk.beta *= flight.weight;
@@ -99,6 +106,7 @@ struct PathTracer::State {
 
   void follow(Walk walk, RandomStream& random) {
     for (;;) {
+      random.align(event_dimensions);
       const std::optional<Hit> hit = context.geometry.intersect(walk.ray);
       const double end = hit ? hit->t : infinity;
       stretches_along(context.medium, walk.ray, end, stretches);
@@ -130,7 +138,7 @@ struct PathTracer::State {
     const double promise = largest(walk.beta) * context.lights.promise_at(walk.ray.origin) / walk.first_promise;
     const int depth = walk.depth();
     const bool doubled = depth >= 2 && (depth & (depth - 1)) == 0;
-    return std::clamp(2.0 * promise, 0.1, depth > 256 ? 0.98 : 1.0) * (doubled ? context.follow_through : 1.0);
+    return std::clamp(4.0 * promise, 0.1, depth > 256 ? 0.98 : 1.0) * (doubled ? context.follow_through : 1.0);
   }
 
   /// Light of point and spot lamps scattered toward the walk from its segment [0, end], whatever happens to the walk
@@ -142,13 +150,14 @@ struct PathTracer::State {
     const bool eye = walk.depth() == 0;
     const int count = eye ? 4 : 1;
     const double offset = random.next();
+    random.align(4);
     segment.promise(context.lights.lamps, eye);
     for (int i = 0; i < count; ++i) {
       const double xi_choice = random.next(), xi = random.next();
       const LampSegment::Sample at = segment.sample(context.lights.lamps, (i + offset) / count, xi_choice, xi);
       double weight = 1.0 / count;
       if (walk.direction_density > 0.0) {
-        const double other = walk.aim.tries() * walk.aim.density(context.lights.lamps, at.lamp, walk.ray);
+        const double other = walk.aim.tries() * walk.aim.density(context.lights.lamps[at.lamp], walk.ray.direction);
         weight *= balance(walk.direction_density, other);
       }
       add(walk, walk.beta * airlight(walk.ray, end, at) * weight, 1, 0);
@@ -195,6 +204,11 @@ struct PathTracer::State {
     return is_zero(light) ? light : light * unoccluded(point, lamp.position);
   }
 
+  void aim(Walk& walk, const Vector& from, const Spectrum& extinction) const {
+    const double tries = walk.depth() < 2 ? 1.0 : 0.3;
+    walk.aim = LampAim(context.lights.lamps, from, sum(walk.beta * extinction) / sum(walk.beta), tries);
+  }
+
   /// More ways to the light of lamps one event ahead, for a walk about to leave `from` after `scatterings` or
   /// `bounces`. The walk's own direction, chosen by the phase function or the surface alone, would meet it as sparks:
   /// in the air near a lamp light goes as 1/angle, and a lamp may light a small place brightly. Two more directions are
@@ -209,10 +223,10 @@ struct PathTracer::State {
     const double tries = walk.aim.tries();
     if (random.next() >= tries) return;
     const double xi[6] = {random.next(), random.next(), random.next(), random.next(), random.next(), random.next()};
-    const std::size_t lamp = walk.aim.choose(lamps, from, xi[0]);
-    const Ray around_lamp{from, walk.aim.direction(lamps[lamp], from, xi[1], xi[2])};
+    const std::size_t lamp = walk.aim.choose(lamps, xi[0]);
+    const Ray around_lamp{from, walk.aim.direction(lamps[lamp], xi[1], xi[2])};
     if (const Spectrum f = reflect(around_lamp.direction); !is_zero(f) && !context.medium.species.empty()) {
-      const double own = tries * walk.aim.density(lamps, lamp, around_lamp);
+      const double own = tries * walk.aim.density(lamps[lamp], around_lamp.direction);
       const auto hit = context.geometry.intersect(around_lamp);
       const double end = hit ? hit->t : infinity;
       stretches_along(context.medium, around_lamp, end, stretches);
@@ -248,8 +262,7 @@ struct PathTracer::State {
     const double facing = std::fabs(dot(lit.geometric_normal, normalized(way)));
     const double incidence = std::fabs(dot(lit.geometric_normal, normalized(beam)));
     if (facing == 0.0) return 0.0;
-    const double per_area =
-        walk.aim.chance(context.lights.lamps, lamp, from) / light.solid_angle() * incidence / length_squared(beam);
+    const double per_area = walk.aim.chance(light) / light.solid_angle() * incidence / length_squared(beam);
     return per_area * length_squared(way) / facing;
   }
 
@@ -259,7 +272,7 @@ struct PathTracer::State {
     scatter.set(context.medium, stretches, t);
     const Vector point = walk.ray.at(t);
     scatter.aim(walk.beta);
-    const double xi[4] = {random.next(), random.next(), random.next(), random.next()};
+    const double xi[2] = {random.next(), random.next()};
     if (is_zero(walk.beta * scatter.scattering())) return false;
     // Light travels against the walk: toward the eye along -direction.
     const auto toward = [&](const Vector& to_light) { return deflection_between(-to_light, -walk.ray.direction); };
@@ -272,7 +285,7 @@ struct PathTracer::State {
       const Spectrum contribution = walk.beta * scatter.scattered(d) * light.radiance * weight;
       if (!is_zero(contribution)) add(walk, contribution * unoccluded({point, light.direction}, light.distance), 1, 0);
     }
-    walk.aim = LampAim(sum(walk.beta * extinction_at(stretches, t)) / sum(walk.beta), walk.depth() < 2 ? 1.0 : 0.3);
+    aim(walk, point, extinction_at(stretches, t));
     toward_lamplight(
         walk, point, 1, 0, random,
         [&](const Vector& next) { return walk.beta * scatter.scattered(deflection_between(walk.ray.direction, next)); },
@@ -296,12 +309,12 @@ struct PathTracer::State {
       add(walk, walk.beta * emitted * (other > 0.0 ? balance(walk.direction_density, other) : 1.0), 0, 0);
     }
     if (!may_go_on(walk)) return false;
-    const SurfacePoint surface = surface_point(context.geometry, hit);
-    const Vector out_direction = -walk.ray.direction;
+    random.align(4);
+    const double xi[3] = {random.next(), random.next(), random.next()};
+    const Reflection surface(surface_point(context.geometry, hit), -walk.ray.direction);
     const Vector start = context.geometry.leave(hit.point, hit.geometric_normal);
-    const LampSample lamp = context.lights.sample_lamp(start, random.next(), [&](const Vector& toward) {
-      return walk.beta * evaluate(surface, out_direction, toward);
-    });
+    const LampSample lamp = context.lights.sample_lamp(
+        start, random.next(), [&](const Vector& toward) { return walk.beta * surface.evaluate(toward); });
     if (lamp.density > 0.0) {
       const Vector position = context.lights.lamps[lamp.lamp].position;
       const double weight =
@@ -312,29 +325,26 @@ struct PathTracer::State {
     }
     for (const SunLight& sun : context.lights.suns) {
       const LightSample light = sample_sun(sun, random.next(), random.next());
-      const Spectrum f = evaluate(surface, out_direction, light.direction);
+      const Spectrum f = surface.evaluate(light.direction);
       if (!is_zero(f)) add(walk, walk.beta * f * light.radiance * unoccluded({start, light.direction}, infinity), 0, 1);
     }
     for (const auto& light :
          {context.lights.sample_environment(random), context.lights.sample_emitter(start, random)}) {
       if (!(light.density > 0.0)) continue;
-      const Spectrum f = evaluate(surface, out_direction, light.direction);
+      const Spectrum f = surface.evaluate(light.direction);
       if (is_zero(f)) continue;
-      const double weight =
-          balance(light.density, direction_density(surface, out_direction, light.direction)) / light.density;
+      const double weight = balance(light.density, surface.density(light.direction)) / light.density;
       add(walk, walk.beta * f * light.radiance * weight * unoccluded({start, light.direction}, light.distance), 0, 1);
     }
     stretches_along(context.medium, {start, hit.geometric_normal}, infinity, stretches);
-    walk.aim = LampAim(sum(walk.beta * extinction_at(stretches, 0.0)) / sum(walk.beta), walk.depth() < 2 ? 1.0 : 0.3);
+    aim(walk, start, extinction_at(stretches, 0.0));
     toward_lamplight(
-        walk, start, 0, 1, random,
-        [&](const Vector& next) { return walk.beta * evaluate(surface, out_direction, next); },
-        [&](const Vector& next) { return direction_density(surface, out_direction, next); });
-    const double xi[3] = {random.next(), random.next(), random.next()};
-    const Vector in = sample_direction(surface, out_direction, xi[0], xi[1], xi[2]);
-    const double density = direction_density(surface, out_direction, in);
+        walk, start, 0, 1, random, [&](const Vector& next) { return walk.beta * surface.evaluate(next); },
+        [&](const Vector& next) { return surface.density(next); });
+    const Vector in = surface.sample(xi[2], xi[0], xi[1]);
+    const double density = surface.density(in);
     if (!(density > 0.0)) return false;
-    walk.beta *= evaluate(surface, out_direction, in) / density;
+    walk.beta *= surface.evaluate(in) / density;
     walk.ray = {start, in};
     walk.direction_density = density;
     ++walk.bounces;

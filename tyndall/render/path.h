@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "tyndall/medium/lowered_medium.h"
-#include "tyndall/sampling/philox.h"
+#include "tyndall/sampling/random_stream.h"
 #include "tyndall/scene/geometry.h"
 #include "tyndall/scene/scene.h"
 

@@ -34,6 +34,8 @@ PathLights::PathLights(const Scene& scene)
   for (const PointLight& point : scene.points) lamps.push_back({point.position, point.intensity});
   for (const SpotLight& spot : scene.spots) {
     lamps.push_back({spot.position, spot.intensity, &spot, normalized(spot.direction)});
+    // A beam concerns fewer places, but not as few as it fills: the root of its part of the sphere.
+    lamps.back().reach *= std::sin(0.5 * std::min(90.0, spot.outer_angle) * std::numbers::pi / 180.0);
   }
   // Within a mean free path of a lamp its light is much the same; an extinction of the whole scene is good enough here.
   Spectrum extinction;

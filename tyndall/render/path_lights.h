@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "tyndall/sampling/direction.h"
-#include "tyndall/sampling/philox.h"
+#include "tyndall/sampling/random_stream.h"
 #include "tyndall/scene/emitter.h"
 #include "tyndall/scene/geometry.h"
 #include "tyndall/scene/panorama_sampling.h"
@@ -17,7 +17,8 @@ struct Lamp {
   Vector position;
   Spectrum intensity;  // on the axis [W/sr]
   const SpotLight* spot = nullptr;
-  Vector axis{0.0, -1.0, 0.0};  // unit; a point light's means nothing
+  Vector axis{0.0, -1.0, 0.0};    // unit; a point light's means nothing
+  double reach = sum(intensity);  // how many places its light concerns, for comparison only
 
   /// Of all directions in which it shines [sr].
   double solid_angle() const {

@@ -118,7 +118,8 @@ Image render(const Scene& scene, const Geometry& geometry, const RenderSettings&
               pixel.depth = hit ? hit->t : infinity;
             }
             for (int i = 0; i < samples && !rendering.stopped(); ++i) {  // a late pass has many
-              RandomStream random(settings.seed, number, static_cast<std::uint32_t>(done + i));
+              RandomStream random(settings.seed, number, static_cast<std::uint32_t>(done + i),
+                                  RandomStream::Samples::even);
               const double dx = random.next(), dy = random.next();
               SampleFilm::add(pixel, tracers[static_cast<std::size_t>(thread)]->trace(camera.through(x + dx, y + dy),
                                                                                       infinity, random));
@@ -135,7 +136,11 @@ Image render(const Scene& scene, const Geometry& geometry, const RenderSettings&
                  {"tyndall.seed", std::to_string(settings.seed)},
                  {"tyndall.max_depth", settings.max_depth == 0 ? "none" : std::to_string(settings.max_depth)}};
   if (!quadrature.empty()) image.notes.emplace_back("tyndall.quadrature", quadrature);
-  if (rendering.stopped()) image.notes.emplace_back("tyndall.stopped", "before all samples were taken");
+  if (rendering.stopped()) {
+    const auto [least, most] = film.samples_taken();
+    image.notes.emplace_back("tyndall.stopped", "before all samples were taken: pixels have " + std::to_string(least) +
+                                                    " to " + std::to_string(most) + " samples");
+  }
   return image;
 }
 

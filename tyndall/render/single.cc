@@ -126,10 +126,11 @@ std::string single_description(const SingleContext& context) {
   char text[512];
   std::snprintf(text, sizeof text,
                 "point, spot and parallel sun lights: exact shadows, closed forms or panels to %.0e; suns with a disc: "
-                "%d x %d directions; sky: at most %d suns, %d directions in media, %d on surfaces; emissive "
-                "surfaces: %d points",
-                s.tolerance, s.sun_rings, s.sun_azimuth, s.sky_suns, s.sky_directions, s.surface_directions,
-                s.emissive_points);
+                "%d x %d directions; sky: at most %d suns, %d directions in media with shadows at %d places, %d on "
+                "surfaces; emissive "
+                "surfaces: cut into at most %d cells per ray, %d per surface point",
+                s.tolerance, s.sun_rings, s.sun_azimuth, s.sky_suns, s.sky_directions, s.sky_shadows,
+                s.surface_directions, 2 * s.emissive_points, 4 * s.emissive_points);
   return text;
 }
 

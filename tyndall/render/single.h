@@ -14,8 +14,9 @@ namespace tyndall {
 struct SingleSettings {
   double tolerance = 1e-9;       // relative, of each adaptive integral along a ray
   int sky_directions = 512;      // of the surroundings, shared by the lobes of the medium
+  int sky_shadows = 8;           // places along the ray where it is asked whether a surface hides one of these
   int sky_suns = 64;             // cells of a panorama too bright for that, each treated as a sun of its own
-  int emissive_points = 64;      // shared out over all emissive triangles by power
+  int emissive_points = 64;      // at most twice as many emissive cells per ray, four times per surface point
   int sun_rings = 3;             // directions over the disc of a sun with an angular diameter: rings ...
   int sun_azimuth = 8;           // ... times azimuth
   int surface_directions = 256;  // of the surroundings, for a surface

@@ -12,8 +12,6 @@ double SingleLamp::falloff(const Vector& away) const {
       return spot_falloff(spot, dot(axis, away));
     case Shape::one_sided:
       return std::max(0.0, dot(axis, away));
-    case Shape::two_sided:
-      return std::fabs(dot(axis, away));
     case Shape::point:
       break;
   }
@@ -83,7 +81,7 @@ struct LampFalloff {
     if (shape == SingleLamp::Shape::point) return 1.0;
     if (shape == SingleLamp::Shape::spot) return ramp(d);
     const double cosine = -d.mu * axis_along - d.sine() * axis_aside;
-    return shape == SingleLamp::Shape::one_sided ? std::max(0.0, cosine) : std::fabs(cosine);
+    return std::max(0.0, cosine);
   }
 };
 
@@ -98,7 +96,7 @@ class LampIntegral {
 
   Spectrum over(const BeamPart& part) {
     const AirlightStretch stretch = AirlightStretch::of(view_.place, part.stretch);
-    if (stretch.diverges) return diverging();
+    if (stretch.diverges) return around_lamp(part);
     const LampFalloff falloff(lamp_, view_, part.full);
     breaks_.assign({0.0, stretch.span});
     for (const auto* list : {&along_.borders(), &along_.marks(), &kinks_}) {
@@ -109,7 +107,9 @@ class LampIntegral {
       }
     }
     std::sort(breaks_.begin(), breaks_.end());
-    return integrate_adaptively(breaks_, airlight_panel, tolerance_, [&](double x) {
+    // Twice the length still gives six digits and more.
+    const double longest = tolerance_ >= 1e-7 ? 2.0 * airlight_panel : airlight_panel;
+    return integrate_adaptively(breaks_, longest, tolerance_, [&](double x) {
       const AirlightStretch::Point p = stretch.at(x);
       const double t = std::clamp(stretch.t_at(p.v), part.stretch.begin, part.stretch.end);
       Spectrum value = scattered(t, p.deflection) * (p.weight * falloff(p.deflection));
@@ -123,21 +123,43 @@ class LampIntegral {
  private:
   Spectrum scattered(double t, const Deflection<double>& d) const {
     Spectrum sum;
+    const Stretch* before = nullptr;
+    double factor = 0.0;
     for (const Stretch& s : along_.stretches()) {
       if (t < s.range.begin || t > s.range.end) continue;
+      if (before == nullptr || !s.like(*before)) factor = s.factor_at(t);
+      before = &s;
       Spectrum part;
       for (const ScatteringLobe& lobe : along_.medium().lobes_of(*s.species)) {
         part += lobe.scattering * std::visit([&](const auto& l) { return l.density(d); }, lobe.lobe);
       }
-      sum += part * s.factor_at(t);
+      sum += part * factor;
     }
     return sum;
   }
-  /// A lamp on the ray: infinite where there is anything at it to scatter its light.
-  Spectrum diverging() const {
-    Spectrum there = scattered(view_.place.along, Deflection<double>::from_mu(0.0));
-    attenuate(there, optical_depth(along_.stretches(), view_.place.along));
-    return map(there, [](double x) { return x > 0.0 ? infinity : 0.0; });
+  /// A lamp on the ray: infinite where there is anything around it to scatter its light, else what the stretches before
+  /// and beyond the gap that it stands in scatter.
+  Spectrum around_lamp(const BeamPart& part) {
+    const std::vector<double>& borders = along_.borders();
+    const double at = view_.place.along;
+    const auto before = std::lower_bound(borders.begin(), borders.end(), at);
+    const auto after = std::upper_bound(borders.begin(), borders.end(), at);
+    const double begin = before == borders.begin() ? 0.0 : *(before - 1);
+    const double end = after == borders.end() ? along_.reach() : *after;
+    Spectrum sum;
+    for (const Interval& piece : {Interval{begin, at}, Interval{at, end}}) {
+      const Interval close = intersection(piece, part.stretch);
+      if (!(close.begin < close.end)) continue;
+      const double middle = close.end < infinity ? 0.5 * (close.begin + close.end) : close.begin + 1.0;
+      Spectrum there = scattered(middle, Deflection<double>::from_mu(0.0));
+      attenuate(there, optical_depth(along_.stretches(), at));
+      sum += map(there, [](double x) { return x > 0.0 ? infinity : 0.0; });
+    }
+    if (!is_zero(sum)) return sum;
+    for (const Interval& piece : {Interval{part.stretch.begin, begin}, Interval{end, part.stretch.end}}) {
+      if (piece.begin < piece.end) sum += over({piece, part.full});
+    }
+    return sum;
   }
 
   const RayMedium& along_;
@@ -160,15 +182,10 @@ void falloff_parts(const LampView& view, const SingleLamp& lamp, const Interval&
       beam_parts(view, lamp.spot, lamp.axis, lit, parts);
       return;
     case SingleLamp::Shape::one_sided:
-    case SingleLamp::Shape::two_sided:
       break;
   }
-  const auto add = [&](const Interval& side) {
-    const Interval part = intersection(lit, side);
-    if (part.begin < part.end) parts.push_back({part, false});
-  };
-  add(cone_stretch(view, lamp.axis, 90.0));
-  if (lamp.shape == SingleLamp::Shape::two_sided) add(cone_stretch(view, -lamp.axis, 90.0));
+  const Interval part = intersection(lit, cone_stretch(view, lamp.axis, 90.0));
+  if (part.begin < part.end) parts.push_back({part, false});
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace tyndall {
 /// A lamp of some shape: intensity [W/sr] times the falloff. Points, spots, and small pieces of glowing surfaces, whose
 /// 1/r^2 is softened to 1/(r^2 + softening) [m^2] (exact on the axis of a disc of area pi softening).
 struct SingleLamp {
-  enum class Shape { point, spot, one_sided, two_sided };
+  enum class Shape { point, spot, one_sided };
   Shape shape = Shape::point;
   Vector position;
   Spectrum intensity;  // on the axis

@@ -67,14 +67,7 @@ Spectrum single_fluence(const SingleContext& context, const Vector& point) {
       return eye.from_sun(i);
     });
   }
-  for (const SingleLamp& piece : prepared.glow) {
-    const Vector way = piece.position - point;
-    const double squared = length_squared(way);
-    if (squared == 0.0 || prepared.geometry.occluded(point, piece.position)) continue;
-    const Spectrum depth = depth_between(prepared.medium.lowered, point, piece.position, scratch);
-    sum +=
-        piece.intensity * exp(depth * -1.0) * (piece.falloff(way / -std::sqrt(squared)) / (squared + piece.softening));
-  }
+  sum += eye.glow_around(point);
   // What is left has no one direction to count from: reflecting surfaces, the sky, and what sky and glow scatter.
   return sum + around_pole({0.0, 1.0, 0.0}, [&](const Vector& direction) {
            eye.set({point, direction}, infinity);

@@ -4,7 +4,6 @@
 #include <numbers>
 #include <numeric>
 
-#include "tyndall/scene/emitter.h"
 #include "tyndall/scene/panorama_sampling.h"
 
 namespace tyndall {
@@ -125,54 +124,6 @@ std::vector<SingleSun> suns_of(const Scene& scene, int rings, int azimuth) {
     }
   }
   return suns;
-}
-
-std::vector<SingleLamp> emissive_points(const Scene& scene, int count) {
-  const Emitters emitters(scene);
-  const std::vector<EmissiveTriangle>& triangles = emitters.triangles();
-  const auto power_of = [](const EmissiveTriangle& t) {
-    return t.area * mean(t.radiance) * (t.double_sided ? 2.0 : 1.0);
-  };
-  double total = 0.0;
-  for (const EmissiveTriangle& t : triangles) total += power_of(t);
-  std::vector<SingleLamp> lamps;
-  if (!(total > 0.0)) return lamps;
-  const auto add = [&](const EmissiveTriangle& t, const Vector& position, double area) {
-    SingleLamp lamp;
-    lamp.shape = t.double_sided ? SingleLamp::Shape::two_sided : SingleLamp::Shape::one_sided;
-    lamp.position = position;
-    lamp.axis = t.normal;
-    lamp.intensity = t.radiance * area;
-    lamp.softening = area / std::numbers::pi;
-    lamps.push_back(lamp);
-  };
-  const double share = total / count;  // of the power, per point
-  double owed = 0.5;                   // points that the triangles so far should have had beyond those they got
-  for (const EmissiveTriangle& t : triangles) {
-    const double points = power_of(t) / share;
-    if (!(points > 0.0)) continue;
-    if (points > 0.5) {
-      // side^2 equal triangles: the rows of a subdivision, upright and inverted.
-      const int side = std::max(1, static_cast<int>(std::lround(std::sqrt(points))));
-      const double step = 1.0 / side;
-      for (int i = 0; i < side; ++i) {
-        for (int j = 0; i + j < side; ++j) {
-          const double u = (i + 1.0 / 3.0) * step, v = (j + 1.0 / 3.0) * step;
-          add(t, t.a + t.ab * u + t.ac * v, t.area * step * step);
-          if (i + j + 1 < side) {
-            add(t, t.a + t.ab * (u + step / 3.0) + t.ac * (v + step / 3.0), t.area * step * step);
-          }
-        }
-      }
-      continue;
-    }
-    owed += points;
-    if (owed >= 1.0) {
-      owed -= 1.0;
-      add(t, t.a + (t.ab + t.ac) / 3.0, t.area / points);
-    }
-  }
-  return lamps;
 }
 
 }  // namespace tyndall

@@ -43,8 +43,4 @@ std::vector<SingleLamp> lamps_of(const Scene& scene);
 /// of 1 - cos.
 std::vector<SingleSun> suns_of(const Scene& scene, int rings, int azimuth);
 
-/// About `count` small lamps in place of all emissive triangles, shared out by power: large triangles are cut into
-/// equal ones, of crowds of small ones every so many-th stands for its neighbours.
-std::vector<SingleLamp> emissive_points(const Scene& scene, int count);
-
 }  // namespace tyndall

@@ -3,23 +3,12 @@
 #include <algorithm>
 #include <numbers>
 
+#include "tyndall/medium/free_flight.h"
 #include "tyndall/render/bsdf.h"
 #include "tyndall/scene/emitter.h"
 
 namespace tyndall {
 namespace {
-
-/// Fixed quadratures err by far more than this; panels along their many rays need not be finer.
-constexpr double coarse_tolerance = 1e-3;
-
-/// Point k of n spread evenly over the unit square (Fibonacci lattice with the golden ratio for any n).
-struct FibonacciPoint {
-  double x, y;
-};
-FibonacciPoint fibonacci(int k, int n) {
-  const double turns = k * 0.61803398874989484820;
-  return {(k + 0.5) / n, turns - std::floor(turns)};
-}
 
 Spectrum vanishing(const Spectrum& depth) {
   return map(depth, [](double x) { return std::exp(-x); });
@@ -34,7 +23,7 @@ SingleContext::Prepared::Prepared(const Scene& scene_, const Geometry& geometry_
       medium(scene.medium),
       shadows(scene),
       lamps(lamps_of(scene)),
-      glow(emissive_points(scene, settings.emissive_points)),
+      glow(scene),
       sky(scene.environment ? &*scene.environment : nullptr, settings.sky_suns),
       suns(suns_of(scene, settings.sun_rings, settings.sun_azimuth)) {
   suns.insert(suns.end(), sky.suns().begin(), sky.suns().end());
@@ -87,42 +76,20 @@ Spectrum SingleRay::reflected(const Hit& hit, const Vector& out) {
   const SurfacePoint surface = surface_point(context_.geometry, hit);
   const Vector start = context_.geometry.leave(hit.point, hit.geometric_normal);
   Spectrum sum;
-  for (const auto* lamps : {&context_.lamps, &context_.glow}) {
-    for (const SingleLamp& lamp : *lamps) {
-      const Vector way = lamp.position - start;
-      const double squared = length_squared(way);
-      if (!(squared > 0.0)) continue;
-      const Vector in = way / std::sqrt(squared);
-      const Spectrum light =
-          lamp.intensity * evaluate(surface, out, in) * (lamp.falloff(-in) / (squared + lamp.softening));
-      if (!is_zero(light)) sum += light * open_way(start, lamp.position);
-    }
+  for (const SingleLamp& lamp : context_.lamps) {
+    const Vector way = lamp.position - start;
+    const double squared = length_squared(way);
+    if (!(squared > 0.0)) continue;
+    const Vector in = way / std::sqrt(squared);
+    const Spectrum light = lamp.intensity * evaluate(surface, out, in) * (lamp.falloff(-in) / squared);
+    if (!is_zero(light)) sum += light * open_way(start, lamp.position);
   }
   for (const SingleSun& sun : context_.suns) {
     const Spectrum light = sun.irradiance * evaluate(surface, out, sun.toward);
     if (!is_zero(light)) sum += light * open_way({start, sun.toward});
   }
-  if (context_.sky.empty()) return sum;
-  // The smooth sky, by directions that the surface favours: so many of its glossy, so many of its diffuse lobe, each on
-  // a Fibonacci lattice, weighted by the density of both together.
-  const int count = context_.settings.surface_directions;
-  const double out_cosine = dot(surface.frame.normal, out);
-  if (count < 1 || !(out_cosine > 0.0)) return sum;
-  const double chance = glossy_chance(surface, out_cosine);
-  const int glossy = static_cast<int>(std::lround(chance * count));
-  Spectrum sky;
-  for (int k = 0; k < count; ++k) {
-    const bool is_glossy = k < glossy;
-    const FibonacciPoint at = is_glossy ? fibonacci(k, glossy) : fibonacci(k - glossy, count - glossy);
-    const Vector in = sample_direction(surface, out, is_glossy ? 0.0 : 1.0, at.x, at.y);
-    const double diffuse = std::max(0.0, dot(surface.frame.normal, in)) / std::numbers::pi;
-    const double facets = (direction_density(surface, out, in) - (1.0 - chance) * diffuse) / chance;
-    const double density = glossy * std::max(0.0, facets) + (count - glossy) * diffuse;
-    if (!(density > 0.0)) continue;
-    const Spectrum light = context_.sky.smooth(in) * evaluate(surface, out, in) / density;
-    if (!is_zero(light)) sky += light * open_way({start, in});
-  }
-  return sum + sky;
+  sum += reflected_glow(surface, start, out, sum);
+  return sum + reflected_sky(surface, start, out);
 }
 
 Spectrum SingleRay::from_lamp(std::size_t index) { return from(context_.lamps[index], context_.settings.tolerance); }
@@ -167,61 +134,9 @@ Spectrum SingleRay::from_sun(std::size_t index) {
   return sun.irradiance * from_direction(sun.toward, context_.settings.tolerance);
 }
 
-Spectrum SingleRay::from_glow() {
-  Spectrum sum;
-  for (const SingleLamp& lamp : context_.glow)
-    sum += from(lamp, std::max(coarse_tolerance, context_.settings.tolerance));
-  return sum;
-}
-
 Spectrum SingleRay::from_the_rest() {
   Spectrum sum = from_glow() + from_sky();
   for (std::size_t i = 0; i < context_.suns.size(); ++i) sum += from_sun(i);
-  return sum;
-}
-
-/// The smooth sky: so many directions for each of the medium's lobes as it has a share in the scattering along the ray,
-/// spread evenly in its own cumulative distribution, so that the sharpest lobe asks for no more of them than the
-/// broadest; weighted by the density of all together. Each is a sun.
-Spectrum SingleRay::from_sky() {
-  const int count = context_.settings.sky_directions;
-  if (medium_.empty() || context_.sky.empty() || count < 1) return {};
-  const SingleMedium& medium = context_.medium;
-  shares_.assign(medium.kinds.size(), 0.0);
-  double whole = 0.0;
-  for (const Stretch& s : medium_.stretches()) {
-    const double column = s.depth_to(medium_.reach());
-    for (std::size_t i = s.species->first_lobe; i < s.species->first_lobe + s.species->lobe_count; ++i) {
-      const double scattered = mean(medium.lobes[i].scattering) * column;
-      shares_[medium.kind[i]] += scattered;
-      whole += scattered;
-    }
-  }
-  if (!(whole > 0.0)) return {};
-  // At least four each: none may be found by another's directions alone.
-  for (double& share : shares_) share = share > 0.0 ? std::max(4.0, std::round(count * share / whole)) : 0.0;
-  const double tolerance = std::max(coarse_tolerance, context_.settings.tolerance);
-  const Frame frame = Frame::around(ray_.direction);
-  Spectrum sum;
-  int turn = 0;
-  for (std::size_t kind = 0; kind < shares_.size(); ++kind) {
-    const int directions = static_cast<int>(shares_[kind]);
-    for (int k = 0; k < directions; ++k) {
-      const double height = fibonacci(k, directions).x, angle = 2.0 * std::numbers::pi * fibonacci(turn++, 1).y;
-      const Deflection<double> d =
-          std::visit([&](const auto& lobe) { return lobe.sample(height); }, medium.kinds[kind]);
-      double density = 0.0;
-      for (std::size_t other = 0; other < shares_.size(); ++other) {
-        if (shares_[other] == 0.0) continue;
-        density += shares_[other] * std::visit([&](const auto& l) { return l.density(d); }, medium.kinds[other]);
-      }
-      // Undeflected light comes from straight ahead.
-      const double sine = d.sine();
-      const Vector toward = normalized(frame.to_world({sine * std::cos(angle), sine * std::sin(angle), d.mu}));
-      const Spectrum light = context_.sky.smooth(toward);
-      if (!is_zero(light)) sum += light / density * from_direction(toward, tolerance);
-    }
-  }
   return sum;
 }
 

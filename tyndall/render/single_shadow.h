@@ -31,7 +31,11 @@ class ShadowIndex {
     std::array<float, 3> low, high;
     std::uint32_t first, count;  // triangles of a leaf; count 0: children are the next node and node `first`
   };
+  static float centre(const Triangle& t, std::size_t axis);
+  static std::size_t bin_of(const Triangle& t, std::size_t axis, float low, float extent, std::size_t bins);
   std::uint32_t build(std::uint32_t first, std::uint32_t end);
+  std::uint32_t divide(std::uint32_t first, std::uint32_t end, const std::array<float, 3>& centre_low,
+                       const std::array<float, 3>& centre_high);
 
   std::vector<Triangle> triangles_;
   std::vector<Node> nodes_;

@@ -4,7 +4,7 @@
 #include "tyndall/medium/scatter.h"
 #include "tyndall/render/slab_kernel.h"
 #include "tyndall/sampling/direction.h"
-#include "tyndall/sampling/philox.h"
+#include "tyndall/sampling/random_stream.h"
 
 namespace tyndall {
 namespace {

@@ -21,29 +21,4 @@ inline std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter,
 /// A word as a number in (0, 1): the middle of one of 2^32 equal cells, never 0 or 1.
 inline double unit_real(std::uint32_t word) { return (word + 0.5) * 0x1p-32; }
 
-/// The random numbers of one sample of one pixel, in the order of its dimensions.
-class RandomStream {
- public:
-  /// seed: chosen by the user; pixel, sample: which numbers; the dimension counts from 0.
-  RandomStream(std::uint64_t seed, std::uint64_t pixel, std::uint32_t sample)
-      : counter_{0, sample, static_cast<std::uint32_t>(pixel), static_cast<std::uint32_t>(pixel >> 32)},
-        key_{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)} {}
-
-  /// The next number, uniform in (0, 1).
-  double next() {
-    if (used_ == 4) {
-      words_ = philox(counter_, key_);
-      ++counter_[0];
-      used_ = 0;
-    }
-    return unit_real(words_[used_++]);
-  }
-
- private:
-  std::array<std::uint32_t, 4> counter_;
-  std::array<std::uint32_t, 2> key_;
-  std::array<std::uint32_t, 4> words_{};
-  unsigned used_ = 4;
-};
-
 }  // namespace tyndall

@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
+#include <vector>
 
 #include "tyndall/sampling/direction.h"
-#include "tyndall/sampling/philox.h"
+#include "tyndall/sampling/random_stream.h"
 
 namespace tyndall {
 namespace {
@@ -30,6 +32,81 @@ TEST(RandomStream, PixelsSamplesAndSeedsHaveTheirOwnNumbers) {
   EXPECT_NE(first, RandomStream(1, 3, 3).next());
   EXPECT_NE(first, RandomStream(1, 2, 4).next());
   EXPECT_NE(first, RandomStream(1, 2 + (std::uint64_t{1} << 32), 3).next());
+}
+
+TEST(RandomStream, EvenSamplesFillCellsOfEqualArea) {
+  for (std::uint64_t pixel : {0u, 1u, 77u}) {
+    for (int branch : {0, 1}) {
+      for (int k = 0; k <= 8; ++k) {
+        const int n = 1 << k;
+        std::vector<std::vector<double>> samples;
+        for (int i = 0; i < n; ++i) {
+          RandomStream random(5, pixel, static_cast<std::uint32_t>(i), RandomStream::Samples::even);
+          if (branch != 0) random.begin_branch(1);
+          samples.emplace_back();
+          for (std::uint32_t d = 0; d < RandomStream::even_dimensions; ++d) samples.back().push_back(random.next());
+        }
+        for (std::size_t d = 0; d < RandomStream::even_dimensions; d += 2) {
+          for (int across = 0; across <= k; ++across) {  // cells of 2^across by 2^(k - across)
+            std::vector<int> count(static_cast<std::size_t>(n));
+            for (const auto& s : samples) {
+              const int x = static_cast<int>(s[d] * (1 << across)),
+                        y = static_cast<int>(s[d + 1] * (1 << (k - across)));
+              ++count[static_cast<std::size_t>(x + (y << across))];
+            }
+            ASSERT_EQ(std::count(count.begin(), count.end(), 1), n) << "dimension " << d << ", 2^" << k << " samples";
+          }
+        }
+      }
+    }
+  }
+}
+
+/// Over pixels, each even sample is as random as an independent one, and pairs of dimensions know nothing of each
+/// other.
+TEST(RandomStream, EvenSamplesAreUniformAndUncorrelated) {
+  constexpr int pixels = 20000, dimensions = 8, cells = 16;
+  for (std::uint32_t sample : {0u, 1u, 5u}) {
+    std::vector<std::array<double, dimensions>> values(pixels);
+    for (int p = 0; p < pixels; ++p) {
+      RandomStream random(9, static_cast<std::uint64_t>(p), sample, RandomStream::Samples::even);
+      for (double& x : values[static_cast<std::size_t>(p)]) x = random.next();
+    }
+    for (std::size_t a = 0; a < dimensions; ++a) {
+      std::array<int, cells> count{};
+      for (const auto& v : values) ++count[static_cast<std::size_t>(v[a] * cells)];
+      double chi_square = 0.0;
+      for (int c : count) chi_square += std::pow(c - pixels / cells, 2) / (pixels / cells);
+      EXPECT_LT(chi_square, 50.0);  // 15 degrees of freedom: 1e-5
+      for (std::size_t b = 0; b < a; ++b) {
+        double product = 0.0;
+        for (const auto& v : values) product += (v[a] - 0.5) * (v[b] - 0.5);
+        EXPECT_LT(std::fabs(product / pixels * 12.0), 5.0 / std::sqrt(pixels)) << a << ' ' << b;
+      }
+    }
+  }
+}
+
+TEST(RandomStream, AlignedDimensionsDoNotDependOnWhatWasUsedBefore) {
+  for (auto samples : {RandomStream::Samples::independent, RandomStream::Samples::even}) {
+    RandomStream straight(1, 2, 3, samples), jumping(1, 2, 3, samples);
+    std::vector<double> all;
+    for (int i = 0; i < 200; ++i) all.push_back(straight.next());
+    EXPECT_EQ(jumping.next(), all[0]);
+    jumping.align(4);
+    EXPECT_EQ(jumping.next(), all[4]);
+    EXPECT_EQ(jumping.next(), all[5]);
+    jumping.align(32);
+    jumping.align(32);  // there already
+    EXPECT_EQ(jumping.next(), all[32]);
+    jumping.align(160);
+    EXPECT_EQ(jumping.next(), all[160]);
+    jumping.begin_branch(1);
+    const double first = jumping.next();
+    EXPECT_EQ(std::count(all.begin(), all.end(), first), 0);
+    jumping.begin_branch(1);  // goes on where it is: no number twice
+    EXPECT_NE(jumping.next(), first);
+  }
 }
 
 /// Mean of f over directions that have density p: the integral of f p. 5 sigma: false alarms below 1e-6 a check.
