@@ -19,7 +19,7 @@ NEEDLES = Material("fir needles", (0.014, 0.022, 0.013))
 BARK = Material("bark", (0.03, 0.022, 0.017))
 GRASS = Material("grass", (0.05, 0.055, 0.022))
 VALLEY = Material("valley", (0.045, 0.055, 0.028))
-WATER = Material("lake", (0.008, 0.012, 0.014), roughness=0.16)
+WATER = Material("lake", (0.008, 0.012, 0.014), roughness=0.35)
 SLOPES = [
     Material("wooded slope", (0.028, 0.036, 0.02)),
     Material("meadow slope", (0.055, 0.058, 0.032)),

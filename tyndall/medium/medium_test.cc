@@ -137,6 +137,19 @@ TEST(FreeFlight, WeightsAreUnbiasedForEveryChannel) {
   }
 }
 
+TEST(Medium, AMixtureOfManyEqualPartsCostsOneLobe) {
+  Mixture<double> mixture;
+  for (int i = 0; i < 150000; ++i) mixture.parts.push_back({1.0, HenyeyGreenstein<double>{i % 3 == 0 ? -0.25 : 0.5}});
+  const LoweredMedium medium = lower(Medium{{species_of(Spectrum::grey(1.0), {}, {}, mixture),
+                                             species_of(Spectrum::grey(2.0), {}, {}, HenyeyGreenstein<double>{0.5})}});
+  ASSERT_EQ(medium.lobes.size(), 3U) << "two of the mixture; species stay apart";
+  EXPECT_NEAR(medium.lobes[0].weight, 1.0 / 3.0, 1e-11);
+  EXPECT_NEAR(medium.lobes[1].weight, 2.0 / 3.0, 1e-11);
+  EXPECT_EQ(medium.species[0].lobe_count, 2U);
+  EXPECT_EQ(medium.species[1].first_lobe, 2U);
+  EXPECT_EQ(medium.species[1].lobe_count, 1U);
+}
+
 TEST(FreeFlight, AChannelWithoutExtinctionPassesAndOthersStayBounded) {
   const LoweredMedium medium = lower(Medium{{species_of({{0.0, 1.0, 5.7}}, {}, {})}});
   std::vector<Stretch> stretches;
@@ -183,21 +196,6 @@ TEST(Scatter, AMixtureIsChromaticAndItsSamplesMatchEveryChannel) {
     EXPECT_NEAR(sum_w[c] / n, 1.0, 5.0 * error);
     EXPECT_NEAR(sum_mu[c] / n, expected[c], 5.0 * error);
   }
-}
-
-TEST(LoweredMedium, NamesEachLobeOfASpeciesOnce) {
-  Mixture<double> mixture;
-  for (int i = 0; i < 1000; ++i) mixture.parts.push_back({1.0, HenyeyGreenstein<double>{0.1 * (i % 2 + 1)}});
-  Species species;
-  species.scattering = Spectrum::grey(1.0);
-  species.phase = mixture;
-  Medium medium;
-  medium.species = {species, species};
-  const LoweredMedium lowered = lower(medium);
-  ASSERT_EQ(lowered.species.size(), 2u);
-  EXPECT_EQ(lowered.species[1].first_lobe, 2u);
-  EXPECT_EQ(lowered.species[1].lobe_count, 2u);
-  for (const auto& part : lowered.lobes) EXPECT_NEAR(part.weight, 0.5, 1e-12);
 }
 
 }  // namespace
