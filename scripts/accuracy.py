@@ -384,7 +384,7 @@ def main():
             "| category | cases | single: worst relative error | path limited to one scattering, 20000 samples: worst z |", "|---|---|---|---|",
             *airlight(bench, truth), "",
             "`single` on the example scenes, surfaces included, against `path` limited to one scattering or bounce (20000 samples), green: what",
-            "is not exact is its fixed quadrature of sky, sun's disc and emissive meshes. The street's worst are surfaces lit by its windows.", "",
+            "is not exact is its quadrature of sky, sun's disc and emissive meshes. `path` has its own noise, stated as one standard error.", "",
             "| scene | rays | median difference ± its standard error | worst |", "|---|---|---|---|", *whole_scenes(bench), "",
             "## Point source in an infinite medium: `tyndall probe --fluence`, 100000 paths", "", *head, fluence(bench, truth), ""]
     os.makedirs(os.path.join(HERE, "..", "docs"), exist_ok=True)

@@ -16,8 +16,6 @@
 namespace tyndall {
 namespace {
 
-using EveryLaw = ListOf<Law<double>, ::testing::Types>::Type;
-
 constexpr int last_moment = 4;
 constexpr double tolerance = 2e-6;
 

@@ -13,8 +13,6 @@
 namespace tyndall {
 namespace {
 
-using EveryLaw = ListOf<Law<double>, ::testing::Types>::Type;
-
 using ::testing::HasSubstr;
 using ::testing::Not;
 

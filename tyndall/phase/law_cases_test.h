@@ -1,6 +1,8 @@
 #pragma once
 // Every law with its hard parameters, made from the list of laws and their field descriptions: a new law is tested
 // without a line here.
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -139,6 +141,22 @@ struct LawNames {
   template <class L>
   static std::string GetName(int) {
     return std::string(L::name);
+  }
+};
+
+/// All laws, as a list of types to test.
+using EveryLaw = ListOf<Law<double>, ::testing::Types>::Type;
+
+template <class L>
+class LawCasesTest : public ::testing::Test {
+ protected:
+  /// Runs a check on each hard case of the law.
+  template <class Check>
+  void on_cases(Check check) {
+    for (const Law<double>& law : law_cases<L>()) {
+      SCOPED_TRACE(words(law));
+      check(law);
+    }
   }
 };
 

@@ -14,19 +14,8 @@
 namespace tyndall {
 namespace {
 
-using EveryLaw = ListOf<Law<double>, ::testing::Types>::Type;
-
 template <class L>
-class EachLawIn : public ::testing::Test {
- protected:
-  template <class Check>
-  void on_cases(Check check) {
-    for (const Law<double>& law : law_cases<L>()) {
-      SCOPED_TRACE(words(law));
-      check(law);
-    }
-  }
-};
+class EachLawIn : public LawCasesTest<L> {};
 TYPED_TEST_SUITE(EachLawIn, EveryLaw, LawNames);
 
 template <class U>

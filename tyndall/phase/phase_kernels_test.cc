@@ -13,8 +13,6 @@
 namespace tyndall {
 namespace {
 
-using EveryLaw = ListOf<Law<double>, ::testing::Types>::Type;
-
 std::vector<InstructionSet> sets_here() {
   std::vector<InstructionSet> sets{InstructionSet::baseline};
   for (const InstructionSet set : {InstructionSet::avx2, InstructionSet::avx512})

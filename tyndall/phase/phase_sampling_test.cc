@@ -13,8 +13,6 @@
 namespace tyndall {
 namespace {
 
-using EveryLaw = ListOf<Law<double>, ::testing::Types>::Type;
-
 constexpr int bins = 128;
 
 // Probability between two log-odds by integrating the density alone (Gauss-Legendre, 5 points on pieces of 1/64), so

@@ -13,20 +13,8 @@
 namespace tyndall {
 namespace {
 
-using EveryLaw = ListOf<Law<double>, ::testing::Types>::Type;
-
 template <class L>
-class EachLaw : public ::testing::Test {
- protected:
-  // Runs a check on each hard case of the law.
-  template <class Check>
-  void on_cases(Check check) {
-    for (const Law<double>& law : law_cases<L>()) {
-      SCOPED_TRACE(words(law));
-      check(law);
-    }
-  }
-};
+class EachLaw : public LawCasesTest<L> {};
 TYPED_TEST_SUITE(EachLaw, EveryLaw, LawNames);
 
 TYPED_TEST(EachLaw, IntegratesToOneOverTheSphere) {
