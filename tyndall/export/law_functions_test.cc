@@ -12,6 +12,7 @@
 #include "tyndall/export/shader_run_test.h"
 #include "tyndall/phase/law_as.h"
 #include "tyndall/phase/law_cases_test.h"
+#include "tyndall/phase/law_suites_test.h"
 
 namespace tyndall {
 namespace {

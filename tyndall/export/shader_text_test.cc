@@ -9,6 +9,7 @@
 
 #include "tyndall/export/law_functions.h"
 #include "tyndall/phase/law_cases_test.h"
+#include "tyndall/phase/law_suites_test.h"
 
 namespace tyndall {
 namespace {

@@ -1,8 +1,6 @@
 #pragma once
 // Every law with its hard parameters, made from the list of laws and their field descriptions: a new law is tested
 // without a line here.
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -127,37 +125,5 @@ inline std::vector<double> test_xi() {
   std::sort(out.begin(), out.end());
   return out;
 }
-
-/// The alternatives of a variant as another list of types: ListOf<Law<double>, ::testing::Types>::Type.
-template <class Variant, template <class...> class List>
-struct ListOf;
-template <class... L, template <class...> class List>
-struct ListOf<std::variant<L...>, List> {
-  using Type = List<L...>;
-};
-
-/// Names for test suites over the laws.
-struct LawNames {
-  template <class L>
-  static std::string GetName(int) {
-    return std::string(L::name);
-  }
-};
-
-/// All laws, as a list of types to test.
-using EveryLaw = ListOf<Law<double>, ::testing::Types>::Type;
-
-template <class L>
-class LawCasesTest : public ::testing::Test {
- protected:
-  /// Runs a check on each hard case of the law.
-  template <class Check>
-  void on_cases(Check check) {
-    for (const Law<double>& law : law_cases<L>()) {
-      SCOPED_TRACE(words(law));
-      check(law);
-    }
-  }
-};
 
 }  // namespace tyndall

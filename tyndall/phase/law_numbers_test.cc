@@ -10,6 +10,7 @@
 #include "tyndall/number/symbol_value.h"
 #include "tyndall/phase/law_as.h"
 #include "tyndall/phase/law_cases_test.h"
+#include "tyndall/phase/law_suites_test.h"
 
 namespace tyndall {
 namespace {

@@ -9,6 +9,7 @@
 
 #include "tyndall/phase/law_as.h"
 #include "tyndall/phase/law_cases_test.h"
+#include "tyndall/phase/law_suites_test.h"
 
 namespace tyndall {
 namespace {

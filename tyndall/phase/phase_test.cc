@@ -7,6 +7,7 @@
 #include "tyndall/number/dual.h"
 #include "tyndall/phase/law_as.h"
 #include "tyndall/phase/law_cases_test.h"
+#include "tyndall/phase/law_suites_test.h"
 #include "tyndall/phase/merged_lobes.h"
 #include "tyndall/phase/sphere_integral_test.h"
 
