@@ -1,5 +1,7 @@
 #pragma once
 // The lobe of Henyey and Greenstein, in forms that keep their digits up to |g| = 0.9999 in float.
+#include <tuple>
+
 #include "tyndall/phase/deflection.h"
 
 namespace tyndall {
@@ -12,10 +14,7 @@ struct HenyeyGreensteinLobe {
   T complement = T(1.0);
 
   static HenyeyGreensteinLobe of(const T& g) { return {g, named("complement", T(1.0) - abs(g))}; }
-  template <class U>
-  HenyeyGreensteinLobe<U> as() const {
-    return {U(g), U(complement)};
-  }
+  static constexpr auto members() { return std::tuple{&HenyeyGreensteinLobe::g, &HenyeyGreensteinLobe::complement}; }
 
   T density(const Deflection<T>& d) const {
     const T r2 = distance_squared(d);

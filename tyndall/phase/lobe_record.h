@@ -4,43 +4,56 @@
 
 namespace tyndall {
 
+/// The most parameters that a lobe may have.
+inline constexpr std::size_t most_lobe_parameters = 4;
+
 /// `kind` is the lobe's index in the Lobe list; parameters in the order of its members.
 struct LobeRecord {
   int kind;
   float weight;
-  float parameters[4];
+  float parameters[most_lobe_parameters];
 };
 
-static_assert(std::variant_size_v<Lobe<float>> == 4, "a new lobe needs a line in both directions below");
+/// The index of a lobe in the list.
+template <template <class> class L>
+constexpr int lobe_kind() {
+  return []<class... Each>(std::type_identity<std::variant<Each...>>) {
+    int kind = 0;
+    static_cast<void>(((std::is_same_v<Each, L<float>> || (++kind, false)) || ...));
+    return kind;
+  }(std::type_identity<Lobe<float>>{});
+}
 
-template <class T>
+template <Scalar T>
 LobeRecord lobe_record(const WeightedLobe<T>& part) {
   LobeRecord record{static_cast<int>(part.lobe.index()), static_cast<float>(part.weight), {}};
-  if (const auto* rayleigh = std::get_if<RayleighLobe<T>>(&part.lobe)) {
-    record.parameters[0] = static_cast<float>(rayleigh->gamma);
-  } else if (const auto* hg = std::get_if<HenyeyGreensteinLobe<T>>(&part.lobe)) {
-    record.parameters[0] = static_cast<float>(hg->g);
-    record.parameters[1] = static_cast<float>(hg->complement);
-  } else if (const auto* power = std::get_if<PowerLobe<T>>(&part.lobe)) {
-    record.parameters[0] = static_cast<float>(power->n);
-  }
+  std::visit(
+      [&]<template <class> class L>(const L<T>& lobe) {
+        static_assert(std::tuple_size_v<decltype(L<T>::members())> <= most_lobe_parameters);
+        std::size_t i = 0;
+        for_each_parameter(lobe, lobe, [&](auto& x, auto&) { record.parameters[i++] = static_cast<float>(x); });
+      },
+      part.lobe);
   return record;
 }
 
 /// The lobe in another number, its parameters the same in every lane.
 template <class T>
 Lobe<T> lobe_of(const LobeRecord& record) {
-  const T a(record.parameters[0]), b(record.parameters[1]);
-  switch (record.kind) {
-    case 1:
-      return RayleighLobe<T>{a};
-    case 2:
-      return HenyeyGreensteinLobe<T>{a, b};
-    case 3:
-      return PowerLobe<T>{static_cast<int>(record.parameters[0])};
-    default:
-      return IsotropicLobe<T>{};
-  }
+  Lobe<T> lobe;
+  int kind = 0;
+  const auto fill = [&]<template <class> class L>(std::type_identity<L<T>>) {
+    if (kind++ != record.kind) return;
+    L<T> made;
+    std::size_t i = 0;
+    for_each_parameter(
+        made, made, [&]<class Member>(Member& x, const Member&) { x = static_cast<Member>(record.parameters[i++]); });
+    lobe = made;
+  };
+  [&]<class... Each>(std::type_identity<std::variant<Each...>>) {
+    (fill(std::type_identity<Each>{}), ...);
+  }(std::type_identity<Lobe<T>>{});
+  return lobe;
 }
 
 }  // namespace tyndall

@@ -1,5 +1,9 @@
 #pragma once
 // What every law lowers to: a short weighted sum of lobes.
+#include <cstddef>
+#include <tuple>
+#include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -11,7 +15,8 @@
 namespace tyndall {
 
 /// The closed set of lobes. Each offers density [1/sr], cdf (from mu = -1), survival (1 - cdf, without cancellation),
-/// sample (the exact inverse of cdf), moment(l).
+/// sample (the exact inverse of cdf), moment(l); and members(), the pointers to its parameters, at most
+/// most_lobe_parameters, from which conversion, comparison and the records of kernels follow (lobe_record.h).
 template <class T>
 using Lobe = std::variant<IsotropicLobe<T>, RayleighLobe<T>, HenyeyGreensteinLobe<T>, PowerLobe<T>>;
 
@@ -25,10 +30,33 @@ struct WeightedLobe {
 template <class T>
 using LobeSum = std::vector<WeightedLobe<T>>;
 
-/// The same lobe with its parameters in another number (double -> float, double -> Lanes: lane-uniform).
+/// Calls visit(to's member, from's member) for each parameter of a lobe in two numbers.
+template <class To, class From, class Visit>
+void for_each_parameter(To& to, const From& from, Visit visit) {
+  constexpr auto count = std::tuple_size_v<decltype(From::members())>;
+  [&]<std::size_t... i>(std::index_sequence<i...>) {
+    (visit(to.*(std::get<i>(std::remove_const_t<To>::members())), from.*(std::get<i>(From::members()))), ...);
+  }
+  (std::make_index_sequence<count>{});
+}
+
+/// The same lobe with its parameters in another number (double -> float, double -> Lanes: lane-uniform). Parameters
+/// that are no numbers T, such as whole exponents, stay as they are.
 template <class U, class T>
 Lobe<U> lobe_as(const Lobe<T>& lobe) {
-  return std::visit([](const auto& l) -> Lobe<U> { return l.template as<U>(); }, lobe);
+  return std::visit(
+      []<template <class> class L>(const L<T>& from) -> Lobe<U> {
+        L<U> to;
+        for_each_parameter(to, from, []<class To, class From>(To& x, const From& y) {
+          if constexpr (std::is_same_v<From, T>) {
+            x = To(y);
+          } else {
+            x = y;
+          }
+        });
+        return to;
+      },
+      lobe);
 }
 
 template <class U, class T>

@@ -6,34 +6,24 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "tyndall/number/scalar.h"
-#include "tyndall/phase/lobe_sum.h"
+#include "tyndall/phase/lobe_record.h"
 
 namespace tyndall {
 
 /// What tells lobes apart: kind and the bits of the parameters (0.0 and -0.0 being one value). Bits, because they order
 /// whatever a parameter holds.
 template <Scalar T>
-std::array<std::uint64_t, 3> lobe_key(const Lobe<T>& lobe) {
-  const auto bits = [](T x) { return std::bit_cast<std::uint64_t>(static_cast<double>(x) + 0.0); };
-  std::array<std::uint64_t, 3> key{lobe.index(), 0, 0};
+std::array<std::uint64_t, most_lobe_parameters + 1> lobe_key(const Lobe<T>& lobe) {
+  std::array<std::uint64_t, most_lobe_parameters + 1> key{lobe.index()};
+  std::size_t i = 1;
   std::visit(
       [&](const auto& l) {
-        using Kind = std::decay_t<decltype(l)>;
-        if constexpr (std::is_same_v<Kind, RayleighLobe<T>>) {
-          key[1] = bits(l.gamma);
-        } else if constexpr (std::is_same_v<Kind, HenyeyGreensteinLobe<T>>) {
-          key[1] = bits(l.g);
-          key[2] = bits(l.complement);
-        } else if constexpr (std::is_same_v<Kind, PowerLobe<T>>) {
-          key[1] = static_cast<std::uint64_t>(l.n);
-        } else {
-          static_assert(std::is_same_v<Kind, IsotropicLobe<T>>, "a new lobe says here what tells it apart");
-        }
+        for_each_parameter(
+            l, l, [&](auto& x, auto&) { key[i++] = std::bit_cast<std::uint64_t>(static_cast<double>(x) + 0.0); });
       },
       lobe);
   return key;
@@ -44,7 +34,7 @@ std::array<std::uint64_t, 3> lobe_key(const Lobe<T>& lobe) {
 template <Scalar T>
 LobeSum<T> merged(LobeSum<T> lobes) {
   if (lobes.size() < 2) return lobes;
-  using Place = std::pair<std::array<std::uint64_t, 3>, std::size_t>;
+  using Place = std::pair<std::array<std::uint64_t, most_lobe_parameters + 1>, std::size_t>;
   std::vector<Place> places;
   places.reserve(lobes.size());
   for (std::size_t i = 0; i < lobes.size(); ++i) places.emplace_back(lobe_key<T>(lobes[i].lobe), i);

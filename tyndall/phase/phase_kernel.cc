@@ -13,8 +13,8 @@ constexpr std::size_t width = Lanes::size;
 
 // The hazy and murky laws have an inverse of their own, many times quicker than the general one.
 bool is_half_isotropic(const PhaseKernelCall& call) {
-  return call.lobe_count == 2 && call.lobes[0].kind == 0 && call.lobes[1].kind == 3 && call.lobes[0].weight == 0.5F &&
-         call.lobes[1].weight == 0.5F;
+  return call.lobe_count == 2 && call.lobes[0].kind == lobe_kind<IsotropicLobe>() &&
+         call.lobes[1].kind == lobe_kind<PowerLobe>() && call.lobes[0].weight == 0.5F && call.lobes[1].weight == 0.5F;
 }
 
 // Calls block(first, lanes) for each full register and once more for what is left over.

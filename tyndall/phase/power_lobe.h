@@ -1,5 +1,7 @@
 #pragma once
 // The forward lobe ((1 + mu)/2)^n of the hazy and murky laws.
+#include <tuple>
+
 #include "tyndall/phase/deflection.h"
 
 namespace tyndall {
@@ -33,10 +35,7 @@ template <class T>
 struct PowerLobe {
   int n = 0;
 
-  template <class U>
-  PowerLobe<U> as() const {
-    return {n};
-  }
+  static constexpr auto members() { return std::tuple{&PowerLobe::n}; }
 
   T density(const Deflection<T>& d) const { return T(n + 1.0) * inverse_four_pi<T>() * integer_power(u_of(d), n); }
   /// F = u^(n+1).

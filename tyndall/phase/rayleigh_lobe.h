@@ -1,5 +1,7 @@
 #pragma once
 // The lobe of Rayleigh scattering with depolarisation.
+#include <tuple>
+
 #include "tyndall/phase/deflection.h"
 
 namespace tyndall {
@@ -10,10 +12,7 @@ template <class T>
 struct RayleighLobe {
   T gamma = T(0.0);
 
-  template <class U>
-  RayleighLobe<U> as() const {
-    return {U(gamma)};
-  }
+  static constexpr auto members() { return std::tuple{&RayleighLobe::gamma}; }
 
   T density(const Deflection<T>& d) const { return fma(square_term(), d.mu * d.mu, constant_term()); }
 
