@@ -27,7 +27,7 @@ bool all_channels_alike(const Medium& medium) {
 
 bool same_everywhere(const LoweredMedium& medium) {
   return std::all_of(medium.species.begin(), medium.species.end(),
-                     [](const LoweredSpecies& s) { return s.decay == 0.0; });
+                     [](const LoweredSpecies& s) { return s.is_constant(); });
 }
 
 /// Transmittance of the unscattered light; for diffuse light 2 int_0^1 T(mu) mu dmu by the midpoint rule in u = mu^2,
@@ -63,8 +63,10 @@ Estimate estimate(const std::vector<double>& sum, const std::vector<double>& squ
 std::string slab_objection(const SlabRequest& request) {
   const LoweredMedium medium = lower(request.medium);
   for (const LoweredSpecies& s : medium.species) {
-    if (!s.boxes.empty() || !s.spheres.empty())
-      return "a slab's medium may vary with height only, not in boxes or spheres";
+    if (!s.is_layered()) return "a slab's medium may vary with height only, not in boxes, spheres or noise";
+    if ((s.heights.bounded() || !s.form.empty()) && std::isinf(request.thickness)) {
+      return "a medium that ends at some height has no infinite slab: give a thickness";
+    }
     if (s.decay != 0.0 && std::isinf(request.thickness)) {
       return "a medium that thickens without end downward has no infinite slab: give a thickness";
     }
