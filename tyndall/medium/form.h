@@ -58,8 +58,8 @@ struct Form {
 
   bool empty() const { return tents.empty() && boxes.empty() && spheres.empty() && noises.empty(); }
 
-  /// The least break after t; infinity if there is none. Breaks of noise advance by at least one unit in the last
-  /// place.
+  /// The least break after t; infinity if there is none. Breaks of noise advance by what a position can resolve at
+  /// least.
   double next_break(const FormRay& along, double t) const {
     double next = infinity;
     const auto offer = [&](double at) {
@@ -84,16 +84,17 @@ struct Form {
       offer(core.end);
     }
     for (const PlacedNoise& placed : noises) {
-      // What is followed just after t.
       // No piece is shorter than what rounding leaves of positions on it.
-      const double after = t + 4e-16 * (t + std::max({std::fabs(o.x), std::fabs(o.y), std::fabs(o.z), 1e-290}));
+      const Vector start = o - placed.shift;
+      const double far = std::max({std::fabs(start.x), std::fabs(start.y), std::fabs(start.z), 1e-290});
+      const double after = t + 4e-16 * (t + far);  // what is followed is asked just after t
       const int octaves = placed.followed(along.metres_at(after));
       if (octaves == 0) continue;
       const double cell = placed.cell(octaves - 1);
       offer(std::max(after, along.entry + followed_cells * cell / along.metres_per_step()));
       for (int axis = 0; axis < 3; ++axis) {
         if (d[axis] == 0.0) continue;
-        const double from = o[axis] - placed.shift[axis], at = (from + d[axis] * t) / cell;
+        const double from = start[axis], at = (from + d[axis] * t) / cell;
         if (!std::isfinite(at)) continue;
         double plane = d[axis] > 0.0 ? std::floor(at) + 1.0 : std::ceil(at) - 1.0;
         double there = (plane * cell - from) / d[axis];

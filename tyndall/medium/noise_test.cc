@@ -138,7 +138,8 @@ TEST(Noise, NoRayTakesMoreThanItsShare) {
               std::vector<Profile>{ExponentialProfile{1e-30, 0.0}},
               std::vector<Profile>{SphereProfile{{0, 0, 0}, 1e-30, 1e-30}},
               std::vector<Profile>{BoxProfile{{-1e9, -1e9, -1e9}, {2e9, 2e9, 2e9}, 1e-30}}}) {
-          const LoweredMedium lowered = lower(Medium{{noisy({scale, 8, 1.0, 0, {}}, more, 1e-12)}});
+          const LoweredMedium lowered =
+              lower(Medium{{noisy({scale, 8, 1.0, 0, {1e9, 0, -1}}, more, 1e-12)}}, end == 1.0 ? 1e9 : 0.0);
           stretches_along(lowered, ray, end, stretches);
           ASSERT_LE(stretches.size(), 8000u);
           const double depth = optical_depth(stretches, end)[0];
