@@ -11,9 +11,7 @@ namespace {
 class LayeredSlab {
  public:
   LayeredSlab(const SlabRequest& request, const LoweredMedium& medium)
-      : request_(request),
-        medium_(medium),
-        tally_(layered_tally_count(request.mu.size())) {}
+      : request_(request), medium_(medium), tally_(layered_tally_count(request.mu.size())) {}
 
   const std::vector<double>& trace(std::uint32_t replicate, std::uint32_t path) {
     std::fill(tally_.begin(), tally_.end(), 0.0);

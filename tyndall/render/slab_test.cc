@@ -1,6 +1,6 @@
 // Slabs against published and independently computed truth. Every z is of an unbiased mean of 1e6 paths; |z| < 4 fails
 // by chance once in 16,000, and a whole category's chi-square stays between its 0.001 and 0.999 quantiles 998 times in
-// 1000. Seeds are fixed.
+// 1000. Seeds are fixed. A million paths give every flux to a standard error of 5e-4.
 #include "tyndall/render/slab.h"
 
 #include <gtest/gtest.h>
@@ -9,6 +9,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <numeric>
 
 #include "tests/shared_folder.h"
 
@@ -44,7 +45,9 @@ SlabRequest slab_of(const Law<double>& law, double albedo, double tau) {
 /// Collects z values and judges them together.
 class Scores {
  public:
+  explicit Scores(double error_limit = 5e-4) : error_limit_(error_limit) {}
   void add(double estimate, double error, double truth, const std::string& what) {
+    largest_error_ = std::max(largest_error_, error);
     if (std::fabs(truth) < 1e-8) {  // the truth has nine decimals, and such rare paths no normal statistics
       EXPECT_NEAR(estimate, truth, 1e-7) << what;
       return;
@@ -59,19 +62,18 @@ class Scores {
     ++count_;
   }
   void judge() const {
+    EXPECT_LE(largest_error_, error_limit_);
     // Wilson and Hilferty (1931): (chi^2/n)^(1/3) is normal with mean 1 - 2/(9n) and variance 2/(9n); 3.0902 is the
     // 0.999 quantile.
     const double v = 2.0 / (9.0 * count_), z = (std::cbrt(chi_square_ / count_) - (1.0 - v)) / std::sqrt(v);
     EXPECT_LT(std::fabs(z), 3.0902) << "chi-square " << chi_square_ << " of " << count_;
-    RecordProperty(chi_square_, count_);
+    ::testing::Test::RecordProperty("chi_square", std::to_string(chi_square_));
+    ::testing::Test::RecordProperty("count", count_);
+    ::testing::Test::RecordProperty("largest_standard_error", std::to_string(largest_error_));
   }
 
  private:
-  static void RecordProperty(double chi_square, int count) {
-    ::testing::Test::RecordProperty("chi_square", std::to_string(chi_square));
-    ::testing::Test::RecordProperty("count", count);
-  }
-  double chi_square_ = 0.0;
+  double error_limit_, largest_error_ = 0.0, chi_square_ = 0.0;
   int count_ = 0;
 };
 
@@ -95,8 +97,6 @@ TEST(SlabTruth, FluxesOfHomogeneousSlabs) {
       scores.add(result.transmittance_diffuse.mean[0], result.transmittance_diffuse.standard_error[0],
                  expected["T_diffuse"], what + " T");
       EXPECT_NEAR(result.transmittance_direct[0], expected["T_direct"].get<double>(), 1e-12);
-      EXPECT_LE(result.reflectance.standard_error[0], 5e-4);
-      EXPECT_LE(result.transmittance_diffuse.standard_error[0], 5e-4);
     }
   }
   scores.judge();
@@ -104,7 +104,8 @@ TEST(SlabTruth, FluxesOfHomogeneousSlabs) {
 
 TEST(SlabTruth, RadianceAtExitAngles) {
   TYNDALL_NEEDS_SHARED_FILE(truth, "acceptance/public.json");
-  Scores scores;
+  Scores scores(8e-4);
+  double largest_error = 0.0;
   std::uint64_t seed = 300;
   for (const json& item : category(truth, "slab_angular")) {
     SlabRequest request = slab_of(law_named(item["phase"]), item["albedo"], item["tau"]);
@@ -120,12 +121,15 @@ TEST(SlabTruth, RadianceAtExitAngles) {
       EXPECT_LT(std::fabs(e.mean[0] - value.get<double>()), 4.5 * e.standard_error[0]) << what << " R";
       const Estimate& t = result.transmission[m];
       EXPECT_LT(std::fabs(t.mean[0] - item["T(mu,mu0)"][mu].get<double>()), 4.5 * t.standard_error[0]) << what << " T";
+      largest_error = std::max({largest_error, e.standard_error[0], t.standard_error[0]});
     }
     // The ten angles of one slab share their paths, so only one of them enters the common judgement.
     const Estimate& e = result.reflection[4];
     scores.add(e.mean[0], e.standard_error[0], item["R(mu,mu0)"]["0.5"], item["phase"].get<std::string>() + " R(0.5)");
   }
   scores.judge();
+  // Grazing angles (R = 0.53 at mu = 0.1 over a slab of g = 0.85) are the noisiest.
+  EXPECT_LE(largest_error, 3e-3);
 }
 
 TEST(SlabTruth, PlaneAlbedoOfHalfSpaces) {
@@ -253,6 +257,61 @@ TEST(SlabTruth, AChromaticSlabGivesEveryChannelItsOwnAnswer) {
   scores.judge();
 }
 
+/// Answers of the same slab from many seeds, for how they spread and what they say of it.
+class Spread {
+ public:
+  void add(const Estimate& e, std::size_t channel = 0) {
+    answers_.push_back(e.mean[channel]);
+    said_ += e.standard_error[channel] * e.standard_error[channel];
+  }
+  double mean() const { return std::accumulate(answers_.begin(), answers_.end(), 0.0) / count(); }
+  double standard_error() const { return std::sqrt(said_) / count(); }
+  /// The variance of n normal answers has a relative standard deviation of sqrt(2 / (n - 1)).
+  void expect_as_said(const std::string& what) const {
+    const double middle = mean();
+    double squares = 0.0;
+    for (const double x : answers_) squares += (x - middle) * (x - middle);
+    EXPECT_NEAR(squares / (count() - 1.0) / (said_ / count()), 1.0, 4.0 * std::sqrt(2.0 / (count() - 1.0))) << what;
+  }
+
+ private:
+  double count() const { return static_cast<double>(answers_.size()); }
+  std::vector<double> answers_;
+  double said_ = 0.0;
+};
+
+/// Paths are not independent of each other, so the error is told from replicates that are: 256 answers spread as they
+/// say, and their mean, of 3e7 paths, is the truth.
+TEST(SlabTruth, StandardErrorsAreHonest) {
+  TYNDALL_NEEDS_SHARED_FILE(truth, "acceptance/public.json");
+  const json ground = category(truth, "mixtures_layers")[3];
+  SlabRequest request = slab_of(MieHazy<double>{}, 0.95, 1.5);
+  request.ground = 0.5;
+  request.mu0 = 0.5;
+  request.mu = {0.2, 0.9};
+  request.paths = 131072;
+  Spread reflected, transmitted, radiance[4];
+  double direct = 0.0;
+  for (request.seed = 1; request.seed <= 256; ++request.seed) {
+    const SlabResult result = solve_slab(request);
+    reflected.add(result.reflectance);
+    transmitted.add(result.transmittance_diffuse);
+    for (std::size_t m = 0; m < 2; ++m) {
+      radiance[2 * m].add(result.reflection[m]);
+      radiance[2 * m + 1].add(result.transmission[m]);
+    }
+    direct = result.transmittance_direct[0];
+  }
+  Scores scores;
+  scores.add(reflected.mean(), reflected.standard_error(), ground["mu0=0.5"]["R"], "ground R");
+  scores.add(transmitted.mean() + direct, transmitted.standard_error(), ground["mu0=0.5"]["ground_irradiance_fraction"],
+             "ground irradiance");
+  scores.judge();
+  reflected.expect_as_said("R");
+  transmitted.expect_as_said("T");
+  for (const Spread& r : radiance) r.expect_as_said("radiance");
+}
+
 Medium chromatic_mixture() {
   Medium medium;
   medium.species.push_back({"", {{0.3, 0.7, 1.7}}, {}, Rayleigh<double>{}, {}});
@@ -265,6 +324,122 @@ void expect_same(const Estimate& a, const Estimate& b, const char* what) {
   for (std::size_t c = 0; c < channel_count; ++c) {
     const double error = std::hypot(a.standard_error[c], b.standard_error[c]);
     EXPECT_LT(std::fabs(a.mean[c] - b.mean[c]), 4.5 * error + 1e-12) << what << " channel " << c;
+  }
+}
+
+/// Also where few paths make small replicates, and the last of them is short: of 1, 8 and 64 paths here.
+TEST(SlabTruth, StandardErrorsAreHonestForAnyNumberOfPaths) {
+  for (const std::uint32_t paths : {100u, 1500u, 10000u}) {
+    SlabRequest request;
+    request.medium = chromatic_mixture();
+    request.paths = paths;
+    request.diffuse = true;
+    Spread reflected[channel_count], transmitted[channel_count];
+    for (request.seed = 1; request.seed <= 256; ++request.seed) {
+      const SlabResult result = solve_slab(request);
+      for (std::size_t c = 0; c < channel_count; ++c) {
+        reflected[c].add(result.reflectance, c);
+        transmitted[c].add(result.transmittance_diffuse, c);
+      }
+    }
+    for (std::size_t c = 0; c < channel_count; ++c) {
+      const std::string what = std::to_string(paths) + " paths, channel " + std::to_string(c);
+      reflected[c].expect_as_said(what + " R");
+      transmitted[c].expect_as_said(what + " T");
+    }
+  }
+}
+
+TEST(SlabTruth, ErrorsAreHonestWhereDensityVariesWithHeight) {
+  SlabRequest request;
+  request.medium = chromatic_mixture();
+  for (Species& s : request.medium.species) s.profiles.push_back(ExponentialProfile{0.5, 0.0});
+  request.ground = 0.5;
+  request.mu = {0.4};
+  request.paths = 3000;
+  Spread reflected, transmitted, radiance;
+  for (request.seed = 1; request.seed <= 256; ++request.seed) {
+    const SlabResult result = solve_slab(request);
+    reflected.add(result.reflectance, 1);
+    transmitted.add(result.transmittance_diffuse, 1);
+    radiance.add(result.reflection[0], 1);
+  }
+  reflected.expect_as_said("R");
+  transmitted.expect_as_said("T");
+  radiance.expect_as_said("R(mu)");
+}
+
+/// No slab is too thick, too narrow in scattering or too black for the promised error.
+TEST(SlabTruth, ThickNarrowAndBlackSlabsKeepTheErrorOfAMillionPaths) {
+  struct Case {
+    double g, albedo, tau;
+  };
+  for (const Case& c : {Case{0.9, 1.0, 100.0}, Case{0.95, 0.999, 64.0}, Case{0.99, 0.5, 10.0}, Case{-0.9, 1.0, 64.0}}) {
+    SlabRequest request = slab_of(HenyeyGreenstein<double>{c.g}, c.albedo, c.tau);
+    const SlabResult result = solve_slab(request);
+    EXPECT_LE(result.reflectance.standard_error[0], 5e-4) << c.g << " " << c.tau;
+    EXPECT_LE(result.transmittance_diffuse.standard_error[0], 5e-4) << c.g << " " << c.tau;
+    const double left = result.reflectance.mean[0] + result.transmittance_diffuse.mean[0];
+    if (c.albedo == 1.0) {
+      EXPECT_NEAR(left, 1.0, 1e-9) << c.g;
+    } else {
+      EXPECT_GT(left, 0.0) << c.g;
+      EXPECT_LT(left, c.g > 0.98 ? 0.02 : 0.9) << c.g;
+    }
+  }
+}
+
+TEST(Slab, OnePathKnowsNoError) {
+  SlabRequest request = slab_of(Isotropic<double>{}, 0.9, 1.0);
+  request.paths = 1;
+  EXPECT_TRUE(std::isinf(solve_slab(request).reflectance.standard_error[0]));
+}
+
+/// Every channel is a walk of its own, so colour costs no channel its accuracy.
+TEST(Slab, AChannelIsTheGreySlabOfItsCoefficientsBitByBit) {
+  SlabRequest request;
+  request.medium = chromatic_mixture();
+  request.mu = {0.7};
+  request.ground = 0.2;
+  request.paths = 20000;
+  const SlabResult all = solve_slab(request);
+  for (std::size_t c = 0; c < channel_count; ++c) {
+    SlabRequest grey = request;
+    for (Species& s : grey.medium.species) {
+      s.scattering = Spectrum::grey(s.scattering[c]);
+      s.absorption = Spectrum::grey(s.absorption[c]);
+    }
+    const SlabResult one = solve_slab(grey);
+    for (std::size_t other = 0; other < channel_count; ++other) {
+      EXPECT_EQ(one.reflectance.mean[other], all.reflectance.mean[c]);
+      EXPECT_EQ(one.transmittance_diffuse.standard_error[other], all.transmittance_diffuse.standard_error[c]);
+      EXPECT_EQ(one.reflection[0].mean[other], all.reflection[0].mean[c]);
+    }
+  }
+}
+
+/// The flux is R = 2 int R(mu) mu dmu. One of the exit angles is the beam's own, where the integral along a flight has
+/// a removable singularity.
+TEST(SlabTruth, RadianceAddsUpToFlux) {
+  // Gauss-Legendre nodes and weights on [0, 1] for 8 points (Abramowitz and Stegun 25.4.30).
+  constexpr double node[] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};
+  constexpr double weight[] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763};
+  for (const double g : {0.0, 0.5, -0.6}) {
+    SlabRequest request = slab_of(HenyeyGreenstein<double>{g}, 0.99, 12.0);
+    request.mu0 = 0.5 * (1.0 + node[1]);
+    for (int i = 0; i < 4; ++i) {
+      request.mu.push_back(0.5 * (1.0 - node[i]));
+      request.mu.push_back(0.5 * (1.0 + node[i]));
+    }
+    const SlabResult result = solve_slab(request);
+    double up = 0.0, down = 0.0;
+    for (std::size_t m = 0; m < 8; ++m) {
+      up += weight[m / 2] * request.mu[m] * result.reflection[m].mean[0];
+      down += weight[m / 2] * request.mu[m] * result.transmission[m].mean[0];
+    }
+    EXPECT_NEAR(up, result.reflectance.mean[0], 5.0 * result.reflectance.standard_error[0] + 1e-4) << g;
+    EXPECT_NEAR(down, result.transmittance_diffuse.mean[0], 5.0 * result.transmittance_diffuse.standard_error[0] + 1e-4)
+        << g;
   }
 }
 
