@@ -1,6 +1,7 @@
 # What Tyndall uses of other people's work, and the targets that folders may LINK:
 #   embree  tinygltf::tinygltf  OpenEXR::OpenEXR  PNG::PNG  stb::stb  nlohmann_json::nlohmann_json  CLI11::CLI11
 #   TBB::tbb  xsimd  Threads::Threads        and for tests  GTest::gmock  rapidcheck  egl::gles
+#   python::jsonschema (defines TYNDALL_PYTHON)
 #
 # TYNDALL_WITH_<PART> is AUTO (used when found), ON (an error when not found; TYNDALL_REQUIRE_ALL=ON makes every AUTO
 # an ON) or OFF. Whatever links a part that is not there is not built, and the end of configure says so.
@@ -94,6 +95,18 @@ if(TYNDALL_BUILD_TESTS)
   include(GoogleTest)
   find_package(rapidcheck CONFIG QUIET)
   tyndall_import(egl::gles EGL/egl.h LIBRARIES EGL GLESv2)
+  # The validator belongs to Debian's python3; another one found first in PATH may not have it.
+  find_package(Python3 COMPONENTS Interpreter)
+  foreach(python IN ITEMS "${Python3_EXECUTABLE}" /usr/bin/python3)
+    if(NOT TARGET python::jsonschema AND python)
+      execute_process(COMMAND "${python}" -c "import jsonschema" RESULT_VARIABLE lacks OUTPUT_QUIET ERROR_QUIET)
+      if(NOT lacks)
+        add_library(python::jsonschema INTERFACE IMPORTED GLOBAL)
+        target_compile_definitions(python::jsonschema INTERFACE TYNDALL_PYTHON="${python}")
+      endif()
+    endif()
+  endforeach()
+  tyndall_component(JSONSCHEMA python3-jsonschema "Tests of the schemas (python3-jsonschema)" TARGETS python::jsonschema)
   tyndall_component(RAPIDCHECK librapidcheck-dev "Property tests (rapidcheck)" TARGETS rapidcheck)
   tyndall_component(EGL "libegl-dev libgles-dev" "Tests that execute shaders (EGL, OpenGL ES)" TARGETS egl::gles)
 endif()
