@@ -322,6 +322,24 @@ TEST(Blended, EndsAreTheFilesThemselves) {
   EXPECT_THROW(blended(a, b, std::nan(""), BlendHow::mix), Fault);
 }
 
+TEST(MediumFile, ASchemaBesideItIsFoundFromItsNewPlace) {
+  const auto moved = [](const std::string& schema, const fs::path& from, const fs::path& to) {
+    MediumFile file;
+    file.schema = schema;
+    move_schema(file, from, to);
+    return *file.schema;
+  };
+  EXPECT_EQ(moved("../schema/m.json", "/a/media/x.medium.json", "/a/media/y.medium.json"), "../schema/m.json");
+  EXPECT_EQ(moved("../schema/m.json", "/a/media/x.medium.json", "/a/out/deep/y.medium.json"), "../../schema/m.json");
+  EXPECT_EQ(moved("m.json", "media/x.medium.json", "y.medium.json"), "media/m.json");
+  for (const char* fixed : {"https://example.org/m.json", "/usr/share/m.json", "urn:x", ""}) {
+    EXPECT_EQ(moved(fixed, "/a/x.medium.json", "/b/y.medium.json"), fixed);
+  }
+  MediumFile without;
+  move_schema(without, "a/x", "y");
+  EXPECT_FALSE(without.schema);
+}
+
 TEST(Blended, TakesEachFileInItsOwnUnit) {
   const MediumFile a = harbour_fog();
   MediumFile b = a, b_in_cm = a;

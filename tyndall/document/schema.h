@@ -8,6 +8,7 @@
 //
 //   SchemaBook book;
 //   const OrderedJson schema = book.whole<Mine>("Title");     // self-contained, its definitions included
+#include <algorithm>
 #include <map>
 #include <set>
 #include <string>
@@ -185,7 +186,7 @@ class SchemaBook {
     OrderedJson types = OrderedJson::array(), conditions = OrderedJson::array(), examples = OrderedJson::array();
     OrderedJson firsts = OrderedJson::object(), forms = OrderedJson::array();
     std::vector<OrderedJson> objects;
-    std::set<std::string> keys;
+    OrderedJson more_keys = OrderedJson::array();
     for_each_alternative<V>([&]<class A>(std::type_identity<A>) {
       constexpr auto first = std::get<0>(A::fields());
       const FieldFacts facts = facts_of(first);
@@ -197,7 +198,9 @@ class SchemaBook {
         describe(value, facts);
         conditions.push_back({{"if", {{"type", type}}}, {"then", std::move(value)}});
       } else {
-        for_each_field<A>([&](const auto& field) { keys.insert(std::string(field.name)); });
+        for_each_field<A>([&](const auto& field) {
+          if (field.name != name) more_keys.push_back(std::string(field.name));
+        });
         describe(value, facts);
         firsts[name] = std::move(value);
         forms.push_back({{"required", {name}}});
@@ -212,7 +215,12 @@ class SchemaBook {
       conditions.push_back({{"if", {{"type", "object"}}}, {"then", objects[0]}});
     } else if (!objects.empty()) {
       schema["properties"] = firsts;
-      OrderedJson any_key{{"enum", keys}};
+      OrderedJson keys = OrderedJson::array();  // each once, the forms' names first: editors propose them in this order
+      for (const auto& first : firsts.items()) keys.push_back(first.key());
+      for (const OrderedJson& key : more_keys) {
+        if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
+      }
+      const OrderedJson any_key{{"enum", keys}};
       conditions.push_back({{"if", {{"type", "object"}}}, {"then", {{"propertyNames", any_key}, {"anyOf", forms}}}});
       for (std::size_t i = 0; i < objects.size(); ++i) {
         OrderedJson has = forms[i];
