@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "tests/program.h"
+#include "tyndall/artist/random_dials_test.h"
 #include "tyndall/document/binding.h"
 #include "tyndall/document/medium_file.h"
 #include "tyndall/document/random_described_test.h"
@@ -122,18 +123,30 @@ class Schema : public tests::ProgramTest {
     std::ofstream out(verdicts);
     for (int i = 0; i < cases; ++i) {
       Chosen chosen = Chosen::of_seed(seed + static_cast<std::uint64_t>(i));
-      const bool scene = i % 3 == 0;
-      Json json = scene ? Json::parse(pretty(written(chosen.value<SceneDescription>())))
-                        : Json::parse(medium_to_json(chosen.value<MediumFile>()));
-      for (std::size_t n = chosen.below(3); n > 0; --n) damage(json, chosen);
+      const bool scene = i % 4 == 0, from_dice = i % 4 == 1;
+      Json json;
+      if (scene) {
+        json = Json::parse(pretty(written(chosen.value<SceneDescription>())));
+      } else if (from_dice) {  // media as people make them, all sound
+        MediumFile file;
+        static_cast<MediumDials&>(file) = tests::Dice(seed + static_cast<std::uint64_t>(i)).medium();
+        json = Json::parse(medium_to_json(file));
+      } else {
+        json = Json::parse(medium_to_json(chosen.value<MediumFile>()));
+      }
+      const std::size_t mistakes = chosen.below(3);
+      for (std::size_t n = 0; n < mistakes; ++n) damage(json, chosen);
       const std::string text = json.dump();
       const Verdict verdict = verdict_of(text, [&](const JsonCursor& at) {
         if (scene) {
-          read_as<SceneDescription>(at);
+          const auto read = read_as<SceneDescription>(at);
+          const JsonText again = parse_json(pretty(written(read)), "again");
+          EXPECT_TRUE(same(read, read_as<SceneDescription>(JsonCursor(again)))) << text;
         } else {
           medium_file_at(at);
         }
       });
+      EXPECT_TRUE(!from_dice || mistakes > 0 || verdict.verdict == "read") << verdict.said;
       out << Json{{"kind", scene ? "scene" : "medium"},
                   {"text", text},
                   {"verdict", verdict.verdict},

@@ -142,7 +142,7 @@ class Builder : public nlohmann::json_sax<Json> {
 /// What JSON asks for where other formats are more lenient: the most frequent habits, told from the byte at which
 /// the parser stopped.
 std::string json_expected(std::string_view text, std::size_t at) {
-  if (at >= text.size()) return "JSON, complete";
+  if (at >= text.size()) return "a whole JSON text";
   const std::string_view rest = text.substr(at), here = text.substr(at == 0 ? 0 : at - 1, 2);
   const std::size_t before = at == 0 ? text.npos : text.find_last_not_of(" \t\r\n", at - 1);
   if (here == "//" || here == "/*" || rest.starts_with("//") || rest.starts_with("/*"))

@@ -42,6 +42,8 @@ void written_is_read_bit_for_bit(Chosen chosen) {
   RC_ASSERT(same(file, again));
   RC_ASSERT(medium_to_json(again) == text);
   const Medium a = compile(file), b = compile(again);
+  RC_CLASSIFY(!a.species.empty(), "something in it");
+  RC_CLASSIFY(a.species.size() > 2, "three species or more");
   RC_ASSERT(a.species.size() == b.species.size());
   for (std::size_t i = 0; i < a.species.size(); ++i) {
     RC_ASSERT(a.species[i].name == b.species[i].name);
