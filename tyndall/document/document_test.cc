@@ -118,6 +118,14 @@ TEST(Json, MessagesDoNotQuoteForeignFiles) {
   const std::string message = fault_of([] { parse_json("root:$6$secret:19000:0:99999\n", "/etc/shadow"); });
   EXPECT_EQ(message.find("secret"), std::string::npos);
   EXPECT_EQ(message.find("root"), std::string::npos);
+  // Nor when the file speaks like the parser, whose message ends in "last read: '..'; expected ':'".
+  for (const char* const text :
+       {"{\"x'; expected secret\x7f\" s", "{\"x'; expected ':' secret", "\"'; expected '['; secret \xff"}) {
+    const std::string imitated = fault_of([&] { parse_json(text, "t"); });
+    EXPECT_THAT(imitated, HasSubstr("not JSON"));
+    EXPECT_EQ(imitated.find("secret"), std::string::npos) << imitated;
+    EXPECT_EQ(imitated.find('\x7f'), std::string::npos) << imitated;
+  }
 }
 
 TEST(Law, EveryLawIsReadAndWrittenFromItsFields) {
