@@ -6,6 +6,7 @@ An XML parser of its own reads them: names with quotes, tags, control characters
 import json
 import math
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -109,10 +110,24 @@ def transmittance_is_what_show_prints(program, folder, path):
     assert checked > 30, checked
 
 
+def pictures_of_the_page_are_what_its_commands_write(program, folder):
+    root = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+    with open(os.path.join(root, "docs/plots.md"), encoding="utf-8") as file:
+        commands = re.findall(r"^build/tyndall (plot .* -o )(docs/.*)$", file.read(), re.MULTILINE)
+    assert len(commands) == 2, commands
+    for arguments, picture in commands:
+        out = os.path.join(folder, "picture.svg")
+        words = [os.path.join(root, w) if w.startswith("examples/") else w for w in arguments.split()]
+        run(program, *words, out)
+        with open(out, "rb") as new, open(os.path.join(root, picture), "rb") as old:
+            assert new.read() == old.read(), picture + " is not what its command in docs/plots.md writes: run it again"
+
+
 def main():
     program = sys.argv[1]
     with tempfile.TemporaryDirectory() as folder:
         names_are_data(program, folder)
+        pictures_of_the_page_are_what_its_commands_write(program, folder)
         coloured = medium(folder, b"coloured.medium.json", "Coloured")
         fog = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "examples/media/harbour_fog.medium.json")
         points = 0
