@@ -149,12 +149,15 @@ std::string quantity_text(double x) {
 std::string share_text(double x) {
   const double rest = 1.0 - std::fabs(x);
   if (!(rest > 0.0 && rest < 5e-4)) return rest == 0.0 ? (x > 0.0 ? "1" : "\u22121") : quantity_text(x);
-  const int decimals = std::min(6, static_cast<int>(std::ceil(-std::log10(rest) - 1e-9)));
+  const int decimals = static_cast<int>(std::ceil(-std::log10(rest) - 1e-9));
+  if (decimals > 6) return x > 0.0 ? "~1" : "~\u22121";
   return formatted(("%." + std::to_string(decimals) + "f").c_str(), x);
 }
 
 std::string distance_text(double metres) {
   if (!std::isfinite(metres)) return quantity_text(metres);
+  if (metres >= 1e9) return "> 10" + raised(6) + " km";
+  if (metres < 1e-6) return "< 1 \u00b5m";
   const LengthUnit unit = length_unit_for(metres);
   return quantity_text(metres / unit.metres) + ' ' + unit.name;
 }

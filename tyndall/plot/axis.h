@@ -44,9 +44,9 @@ std::string tick_text(double x);
 std::string decade_text(int exponent, bool plain);
 /// Three significant digits: 0.0123, 12.3, 1.23×10⁷; "\u2013" where undefined, "\u221e" where infinite.
 std::string quantity_text(double x);
-/// The same for a number that 1 in size is special to: 0.9999 is not 1.00.
+/// The same for a number that 1 in size is special to: 0.9999 is not 1.00; "~1" within 1e-6.
 std::string share_text(double x);
-/// A length [m] in mm, cm, m or km.
+/// A length [m] in mm, cm, m or km; "> 10⁶ km", "< 1 µm" beyond what anybody needs.
 std::string distance_text(double metres);
 
 /// A unit of length and its size [m].

@@ -89,6 +89,9 @@ TEST(Quantities, HaveThreeDigitsAndFittingUnits) {
   EXPECT_EQ(distance_text(1234.0), "1.23 km");
   EXPECT_EQ(distance_text(0.5), "50.0 cm");
   EXPECT_EQ(distance_text(0.0001), "0.100 mm");
+  EXPECT_EQ(distance_text(1e-30), "< 1 µm");
+  EXPECT_EQ(distance_text(1e300), "> 10⁶ km");
+  EXPECT_EQ(share_text(-0.99999999), "~\u22121");
 }
 
 double distance_to_line(const std::vector<Point>& points, const Point& p) {

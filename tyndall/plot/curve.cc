@@ -69,8 +69,8 @@ std::vector<double> angles_from(double least) {
   constexpr double pi = std::numbers::pi, half_degree = pi / 360.0;
   std::vector<double> angles{least, pi};
   for (int i = 1; i < 360; ++i) angles.push_back(i * half_degree);
-  for (int i = 0; i < 70; ++i) {
-    const double small = 1e-8 * std::pow(10.0, i / 12.0);
+  for (int i = 0;; ++i) {
+    const double small = 1e-15 * std::pow(10.0, i / 12.0);
     if (small >= half_degree) break;
     angles.push_back(small);
     angles.push_back(pi - small);

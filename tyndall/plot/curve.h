@@ -14,7 +14,7 @@ inline constexpr double curve_tolerance = 0.02;
 /// feature), halved where it bends, thinned where it is straight.
 std::vector<Point> curve(const std::vector<double>& first, const std::function<Point(double)>& at);
 
-/// Angles [radians] from `least` to pi, close together near both ends: a peak of any width above 1e-8 is met.
+/// Angles [radians] from `least` to pi, close together near both ends: a peak of any width above 1e-15 is met.
 std::vector<double> angles_from(double least);
 
 }  // namespace tyndall

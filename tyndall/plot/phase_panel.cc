@@ -12,7 +12,6 @@ namespace tyndall {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
-constexpr double most_decades = 1e16;  // of density: what lies lower is drawn below the axis
 
 /// Where the logarithmic axis of angles begins [degrees]: well inside the narrowest peak.
 double least_angle(const PanelContent& content) {
@@ -26,7 +25,7 @@ double least_angle(const PanelContent& content) {
       }
     }
   }
-  return std::pow(10.0, std::floor(std::log10(std::clamp(least, 1e-6, 1.0))));
+  return std::pow(10.0, std::floor(std::log10(std::clamp(least, 1e-13, 1.0))));
 }
 
 /// Round, with a little room, and at least a decade.
@@ -61,10 +60,16 @@ void add_bands(Group& out, const PanelFrame& frame, const PanelContent& content,
 
 DensityRange density_range(const PanelContent& content) {
   double low = std::numeric_limits<double>::infinity(), low_of_parts = low, high = 0.0;
+  std::vector<double> usual;
   const std::vector<double> angles = angles_from(0.0);
   for (const Line& line : content.lines) {
+    // A law that is 0 somewhere would claim any number of decades: below its median, few are worth drawing.
+    usual.clear();
+    for (int i = 0; i <= 180; ++i) usual.push_back(density_of(line, i * degree));
+    std::nth_element(usual.begin(), usual.begin() + 90, usual.end());
+    const double least = usual[90] / 1000.0;
     for (const double angle : angles) {
-      const double p = density_of(line, angle);
+      const double p = std::max(density_of(line, angle), least);
       if (!(p > 0.0)) continue;
       double& lowest = line.part != nullptr ? low_of_parts : low;
       lowest = std::min(lowest, p);
@@ -74,7 +79,7 @@ DensityRange density_range(const PanelContent& content) {
   if (!(high > 0.0)) return {0.0, 0.0};
   // A part may be next to nothing: the subject is what the panel is about.
   low = std::min(low, std::max(low_of_parts, low / 100.0));
-  return {std::max(low, high / most_decades), high};
+  return {low, high};
 }
 
 void draw_phase_panel(Figure& figure, const Rectangle& cell, const std::string& title, const PanelContent& content,

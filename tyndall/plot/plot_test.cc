@@ -49,6 +49,14 @@ std::vector<Subject> eight() {
   return out;
 }
 
+/// A law that is next to 0 in half of all directions.
+Subject dips() {
+  Subject subject = law("mie_hazy");
+  subject.name = "dips";
+  for (auto& phase : subject.phase) phase = {{1.0, PowerLobe<double>{200}}};
+  return subject;
+}
+
 struct Case {
   std::string what;
   std::vector<Subject> subjects;
@@ -71,6 +79,8 @@ std::vector<Case> cases() {
           {"vacuum and fog", {medium("", {}), coloured()}},
           {"mixed", {coloured(), absorbing(), law("mie_hazy")}},
           {"thin and thick", {coloured("thin", 1e-9), coloured("thick", 1e9)}},
+          {"immense", {coloured("nothing to speak of", 1e-290), coloured("wall", 1e30)}},
+          {"zero ahead and behind", {dips()}},
           {"eight", eight()}};
 }
 
@@ -314,6 +324,21 @@ TEST(Plot, RefusesWhatItCannotDraw) {
   EXPECT_THROW(plot(std::vector{law("isotropic")}, {{Panel::transmittance}, false, false, {}}), Fault);
   EXPECT_THROW(plot(std::vector{coloured()}, {{}, false, false, 0.1}), Fault);
   EXPECT_THROW(plot(std::vector{coloured()}, {{}, false, false, 10.0}), Fault);
+}
+
+TEST(Plot, HoldsFiniteCoordinatesWhateverTheMedium) {
+  for (const Case& c : cases()) {
+    for (const PlotOptions& how : ways()) {
+      for (const Group& group : plot(c.subjects, how).groups) {
+        for (const Mark& mark : group.marks) {
+          const auto* path = std::get_if<Path>(&mark);
+          for (const Point& p : path != nullptr ? path->points : std::vector<Point>{}) {
+            ASSERT_TRUE(std::fabs(p.x) < 1e4 && std::fabs(p.y) < 1e4) << c.what;
+          }
+        }
+      }
+    }
+  }
 }
 
 TEST(Plot, SaysSoWhereNothingScatters) {

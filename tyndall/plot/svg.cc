@@ -1,6 +1,7 @@
 #include "tyndall/plot/svg.h"
 
 #include <charconv>
+#include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <string_view>
@@ -44,7 +45,7 @@ std::string xml(std::string_view text) {
 std::string number(double x) {
   char text[64];
   const auto [end, error] = std::to_chars(text, text + sizeof text, x, std::chars_format::fixed, 3);
-  if (error != std::errc()) return "0";
+  if (error != std::errc() || !std::isfinite(x)) return "0";
   std::string_view digits(text, static_cast<std::size_t>(end - text));
   while (digits.back() == '0') digits.remove_suffix(1);
   if (digits.back() == '.') digits.remove_suffix(1);

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double shared_linear = 15.0;  // visibilities further apart than this do not share a linear axis
 constexpr double contrast = 0.05;
+constexpr double shortest_drawn = 1e-9, longest_drawn = 1e15;  // [m], a nanometre and a tenth of a light year
 
 struct VisibilityRange {
   double shortest = std::numeric_limits<double>::infinity(), longest = 0.0;
@@ -35,6 +36,8 @@ VisibilityRange visibilities(const PanelContent& content) {
 Axis distances(const PanelContent& content, bool logarithmic, LengthUnit& unit) {
   VisibilityRange range = visibilities(content);
   if (range.longest == 0.0) range = {1000.0, 1000.0};  // a vacuum: any distance will do
+  range.shortest = std::clamp(range.shortest, shortest_drawn, longest_drawn);
+  range.longest = std::clamp(range.longest, shortest_drawn, longest_drawn);
   logarithmic = logarithmic || range.longest > shared_linear * range.shortest;
   if (logarithmic) {  // in metres: each tick says its unit
     unit = {"", 1.0};
