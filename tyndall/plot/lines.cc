@@ -35,6 +35,13 @@ std::vector<const SubjectPart*> parts_of(const Subject& subject, Quantity quanti
   return parts;
 }
 
+/// The channel that stands for the others: the usual one, or where it does not scatter one that does.
+std::size_t representative(const Subject& subject, Quantity quantity) {
+  if (quantity == Quantity::transmittance || !subject.phase[reference_channel].empty()) return reference_channel;
+  const auto first = std::find_if(subject.phase.begin(), subject.phase.end(), [](const auto& p) { return !p.empty(); });
+  return static_cast<std::size_t>(first - subject.phase.begin());
+}
+
 }  // namespace
 
 bool is_coloured(const Subject& subject, Quantity quantity) {
@@ -50,23 +57,30 @@ std::vector<Line> lines_of(std::span<const Subject> subjects, Quantity quantity,
       // A species keeps its line in all panels.
       Stroke stroke = style::part_line(static_cast<std::size_t>(part - subjects[i].parts.data()));
       if (!alone) stroke = {style::subject_line(i).ink, style::thin_width, style::subject_line(i).dash};
-      lines.push_back({&subjects[i], reference_channel, part, stroke, alone ? part->name : "thin: species"});
+      lines.push_back(
+          {&subjects[i], representative(subjects[i], quantity), part, stroke, alone ? part->name : "thin: species"});
     }
   }
   for (std::size_t i = 0; i < subjects.size(); ++i) {
     const Subject& subject = subjects[i];
     if (!has(subject, quantity)) continue;
+    const bool all_scatter =
+        std::none_of(subject.phase.begin(), subject.phase.end(), [](const auto& p) { return p.empty(); });
     if (!alone) {
-      lines.push_back({&subject, reference_channel, nullptr, style::subject_line(i), subject.name});
+      lines.push_back({&subject, representative(subject, quantity), nullptr, style::subject_line(i), subject.name});
     } else if (!is_coloured(subject, quantity)) {
-      lines.push_back({&subject, reference_channel, nullptr, style::grey_line(),
-                       subject.is_medium ? "all channels" : subject.name});
+      lines.push_back({&subject, representative(subject, quantity), nullptr, style::grey_line(),
+                       !subject.is_medium                            ? subject.name
+                       : quantity == Quantity::phase && !all_scatter ? "channels that scatter"
+                                                                     : "all channels"});
     } else {
+      const std::size_t before = lines.size();
       for (std::size_t c = 0; c < channel_count; ++c) {
+        if (quantity == Quantity::phase && subject.phase[c].empty()) continue;
         lines.push_back({&subject, c, nullptr, style::channel_line(c), subject.channels[c]});
       }
       // The unbroken line lies beneath, so that the others show where they meet.
-      const auto whole = lines.end() - static_cast<std::ptrdiff_t>(channel_count);
+      const auto whole = lines.begin() + static_cast<std::ptrdiff_t>(before);
       std::stable_partition(whole, lines.end(), [](const Line& line) { return line.stroke.dash.empty(); });
     }
   }

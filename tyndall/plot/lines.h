@@ -24,8 +24,8 @@ struct Line {
 };
 
 /// One subject is drawn by channel (one line where they agree); of several, each has one line, for its reference
-/// channel. With `species`, thin lines for the parts (of one subject the eight that matter most) come first, since they
-/// lie beneath. A subject that has no such quantity has no line.
+/// channel (of a phase function, for one that scatters). With `species`, thin lines for the parts (of one subject the
+/// eight that matter most) come first, since they lie beneath. A subject that has no such quantity has no line.
 std::vector<Line> lines_of(std::span<const Subject> subjects, Quantity quantity, bool species);
 
 /// The phase function [1/sr] at an angle [radians]: a part counts by its share, so that parts add up to the whole.

@@ -42,9 +42,8 @@ void add_bands(Group& out, const PanelFrame& frame, const PanelContent& content,
     Path band{{}, {}, Fill{line.stroke.ink, 0.2}, true, {{"class", "band"}, {"of", line.subject->name}}};
     for (const bool upper : {true, false}) {
       const auto edge = curve(angles, [&](double angle) {
-        Spectrum p;
-        for (std::size_t c = 0; c < channel_count; ++c) p[c] = density_at(line.subject->phase[c], angle);
-        return Point{frame.x.at(angle / degree), frame.y.at(upper ? largest(p) : smallest(p))};
+        const DensitySpan span = density_span(*line.subject, angle);
+        return Point{frame.x.at(angle / degree), frame.y.at(upper ? span.high : span.low)};
       });
       if (upper) {
         band.points = edge;

@@ -294,6 +294,20 @@ TEST(PlotCurves, OfSpeciesAddUpToTheWhole) {
   }
 }
 
+TEST(PlotLines, LeaveOutChannelsThatDoNotScatter) {
+  const Spectrum scattering{{{0.0, 0.0, 1e-3}}};
+  const std::vector<Subject> subjects{medium("blue", {{"a", scattering, Spectrum::grey(1e-4), Rayleigh<double>{}, {}}}),
+                                      law("mie_hazy")};
+  for (const std::span<const Subject> drawn : {std::span(subjects).first(1), std::span(subjects)}) {
+    const std::vector<Line> lines = lines_of(drawn, Quantity::phase, false);
+    ASSERT_EQ(lines.size(), drawn.size());
+    EXPECT_EQ(lines[0].channel, 2u);
+    EXPECT_GT(density_of(lines[0], 0.0), 0.05);
+  }
+  EXPECT_FALSE(is_coloured(subjects[0], Quantity::phase));
+  EXPECT_TRUE(is_coloured(subjects[0], Quantity::transmittance));
+}
+
 TEST(PlotLines, TellSubjectsAndChannelsApart) {
   std::vector<Stroke> strokes;
   for (std::size_t i = 0; i < most_plotted; ++i) strokes.push_back(style::subject_line(i));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -67,13 +68,20 @@ double density_at(const LobeSum<double>& phase, double angle) {
   return density(phase, Deflection<double>::from_halves(c * c, s * s));
 }
 
+DensitySpan density_span(const Subject& subject, double angle) {
+  DensitySpan span{std::numeric_limits<double>::infinity(), 0.0};
+  for (const auto& phase : subject.phase) {
+    if (phase.empty()) continue;
+    const double p = density_at(phase, angle);
+    span = {std::min(span.low, p), std::max(span.high, p)};
+  }
+  return span;
+}
+
 bool has_coloured_phase(const Subject& subject) {
   for (int degrees = 0; degrees <= 180; degrees += 2) {
-    Spectrum p;
-    for (std::size_t c = 0; c < channel_count; ++c) {
-      p[c] = density_at(subject.phase[c], degrees * std::numbers::pi / 180.0);
-    }
-    if (largest(p) > smallest(p) * (1.0 + visible)) return true;
+    const auto [low, high] = density_span(subject, degrees * std::numbers::pi / 180.0);
+    if (high > low * (1.0 + visible)) return true;
   }
   return false;
 }

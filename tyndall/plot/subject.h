@@ -36,6 +36,12 @@ Subject subject_of(std::string name, const Medium& medium);
 /// Density [1/sr] of a channel at an angle [radians, 0 to pi]; 0 where nothing scatters.
 double density_at(const LobeSum<double>& phase, double angle);
 
+/// The least and the greatest density [1/sr] of the channels that scatter.
+struct DensitySpan {
+  double low, high;
+};
+DensitySpan density_span(const Subject& subject, double angle);
+
 /// Whether the channels differ by enough to be seen: in their laws, in their extinction.
 bool has_coloured_phase(const Subject& subject);
 bool has_coloured_extinction(const Subject& subject);
