@@ -73,6 +73,11 @@ DensityRange density_range(const PanelContent& content) {
       double& lowest = line.part != nullptr ? low_of_parts : low;
       lowest = std::min(lowest, p);
       high = std::max(high, p);
+      if (line.part == nullptr && content.subjects.size() > 1) {  // room for its band
+        const DensitySpan span = density_span(*line.subject, angle);
+        low = std::min(low, std::max(span.low, least));
+        high = std::max(high, span.high);
+      }
     }
   }
   if (!(high > 0.0)) return {0.0, 0.0};
