@@ -1,6 +1,6 @@
 # What Tyndall uses of other people's work, and the targets that folders may LINK:
 #   embree  tinygltf::tinygltf  OpenEXR::OpenEXR  PNG::PNG  stb::stb  nlohmann_json::nlohmann_json  CLI11::CLI11
-#   TBB::tbb  xsimd  Threads::Threads        and for tests  GTest::gmock  rapidcheck  egl::gles
+#   TBB::tbb  xsimd  cairo::cairo  Threads::Threads        and for tests  GTest::gmock  rapidcheck  egl::gles
 #   python::jsonschema (defines TYNDALL_PYTHON)
 #
 # TYNDALL_WITH_<PART> is AUTO (used when found), ON (an error when not found; TYNDALL_REQUIRE_ALL=ON makes every AUTO
@@ -79,6 +79,13 @@ if(TARGET xsimd)
 endif()
 tyndall_import(stb::stb stb/stb_image.h)
 tyndall_import(tinygltf::tinygltf tiny_gltf.h LIBRARIES tinygltf)
+# cairo paints plots; the letters are DejaVu Sans, which the program takes in, so that plots do not depend on fonts.
+find_package(Freetype QUIET)
+find_file(TYNDALL_FONT DejaVuSans.ttf PATHS /usr/share/fonts PATH_SUFFIXES truetype/dejavu dejavu dejavu-sans-fonts TTF)
+mark_as_advanced(TYNDALL_FONT)
+if(TARGET Freetype::Freetype AND TYNDALL_FONT)
+  tyndall_import(cairo::cairo cairo/cairo-ft.h LIBRARIES cairo LINK Freetype::Freetype)
+endif()
 
 tyndall_component(EMBREE libembree-dev "Surfaces (Embree)" TARGETS embree)
 tyndall_component(TBB libtbb-dev "Thread pool (TBB)" TARGETS TBB::tbb)
@@ -89,6 +96,7 @@ tyndall_component(STB libstb-dev "HDR and JPEG pictures (stb)" TARGETS stb::stb)
 tyndall_component(JSON nlohmann-json3-dev "Medium and scene files (nlohmann-json)" TARGETS nlohmann_json::nlohmann_json)
 tyndall_component(CLI11 libcli11-dev "Command line (CLI11)" TARGETS CLI11::CLI11)
 tyndall_component(XSIMD libxsimd-dev "SIMD kernels (xsimd)" TARGETS xsimd)
+tyndall_component(CAIRO "libcairo2-dev or fonts-dejavu-core" "Plots as PNG (cairo)" TARGETS cairo::cairo)
 
 if(TYNDALL_BUILD_TESTS)
   find_package(GTest REQUIRED)
