@@ -1,6 +1,7 @@
 # What Tyndall uses of other people's work, and the targets that folders may LINK:
 #   embree  tinygltf::tinygltf  OpenEXR::OpenEXR  PNG::PNG  stb::stb  nlohmann_json::nlohmann_json  CLI11::CLI11
-#   TBB::tbb  xsimd  Threads::Threads        and for tests  GTest::gmock  rapidcheck  egl::gles
+#   TBB::tbb  xsimd  cairo::cairo  Threads::Threads        and for tests  GTest::gmock  rapidcheck  egl::gles
+#   python::jsonschema (defines TYNDALL_PYTHON)
 #
 # TYNDALL_WITH_<PART> is AUTO (used when found), ON (an error when not found; TYNDALL_REQUIRE_ALL=ON makes every AUTO
 # an ON) or OFF. Whatever links a part that is not there is not built, and the end of configure says so.
@@ -78,6 +79,13 @@ if(TARGET xsimd)
 endif()
 tyndall_import(stb::stb stb/stb_image.h)
 tyndall_import(tinygltf::tinygltf tiny_gltf.h LIBRARIES tinygltf)
+# cairo paints plots; the letters are DejaVu Sans, which the program takes in, so that plots do not depend on fonts.
+find_package(Freetype QUIET)
+find_file(TYNDALL_FONT DejaVuSans.ttf PATHS /usr/share/fonts PATH_SUFFIXES truetype/dejavu dejavu dejavu-sans-fonts TTF)
+mark_as_advanced(TYNDALL_FONT)
+if(TARGET Freetype::Freetype AND TYNDALL_FONT)
+  tyndall_import(cairo::cairo cairo/cairo-ft.h LIBRARIES cairo LINK Freetype::Freetype)
+endif()
 
 tyndall_component(EMBREE libembree-dev "Surfaces (Embree)" TARGETS embree)
 tyndall_component(TBB libtbb-dev "Thread pool (TBB)" TARGETS TBB::tbb)
@@ -88,12 +96,25 @@ tyndall_component(STB libstb-dev "HDR and JPEG pictures (stb)" TARGETS stb::stb)
 tyndall_component(JSON nlohmann-json3-dev "Medium and scene files (nlohmann-json)" TARGETS nlohmann_json::nlohmann_json)
 tyndall_component(CLI11 libcli11-dev "Command line (CLI11)" TARGETS CLI11::CLI11)
 tyndall_component(XSIMD libxsimd-dev "SIMD kernels (xsimd)" TARGETS xsimd)
+tyndall_component(CAIRO "libcairo2-dev or fonts-dejavu-core" "Plots as PNG (cairo)" TARGETS cairo::cairo)
 
 if(TYNDALL_BUILD_TESTS)
   find_package(GTest REQUIRED)
   include(GoogleTest)
   find_package(rapidcheck CONFIG QUIET)
   tyndall_import(egl::gles EGL/egl.h LIBRARIES EGL GLESv2)
+  # The validator belongs to Debian's python3; another one found first in PATH may not have it.
+  find_package(Python3 COMPONENTS Interpreter)
+  foreach(python IN ITEMS "${Python3_EXECUTABLE}" /usr/bin/python3)
+    if(NOT TARGET python::jsonschema AND python)
+      execute_process(COMMAND "${python}" -c "import jsonschema" RESULT_VARIABLE lacks OUTPUT_QUIET ERROR_QUIET)
+      if(NOT lacks)
+        add_library(python::jsonschema INTERFACE IMPORTED GLOBAL)
+        target_compile_definitions(python::jsonschema INTERFACE TYNDALL_PYTHON="${python}")
+      endif()
+    endif()
+  endforeach()
+  tyndall_component(JSONSCHEMA python3-jsonschema "Tests of the schemas (python3-jsonschema)" TARGETS python::jsonschema)
   tyndall_component(RAPIDCHECK librapidcheck-dev "Property tests (rapidcheck)" TARGETS rapidcheck)
   tyndall_component(EGL "libegl-dev libgles-dev" "Tests that execute shaders (EGL, OpenGL ES)" TARGETS egl::gles)
 endif()

@@ -1,4 +1,5 @@
-# What `cmake --install` leaves: the headers of floors 0 to 4 with find_package(tyndall), and the program when built.
+# What `cmake --install` leaves: the headers of floors 0 to 4 with find_package(tyndall), the schemas of our files, and
+# the program when built.
 include_guard(GLOBAL)
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -12,6 +13,8 @@ write_basic_package_version_file("${PROJECT_BINARY_DIR}/package/tyndallConfigVer
   COMPATIBILITY SameMinorVersion ARCH_INDEPENDENT)
 install(FILES "${PROJECT_BINARY_DIR}/package/tyndallConfig.cmake"
   "${PROJECT_BINARY_DIR}/package/tyndallConfigVersion.cmake" DESTINATION "${where}")
+install(FILES "${PROJECT_SOURCE_DIR}/schema/tyndall-medium-1.schema.json"
+  "${PROJECT_SOURCE_DIR}/schema/tyndall-scene-1.schema.json" DESTINATION "${CMAKE_INSTALL_DATADIR}/tyndall/schema")
 if(TARGET tyndall_cli)
   install(TARGETS tyndall_cli RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
 endif()

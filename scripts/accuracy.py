@@ -90,13 +90,13 @@ class Scores:
         self.rows.append(((mean - truth) / math.hypot(error, 1e-9), name))
         self.errors.append(error)
 
-    def table_row(self, title):
+    def table_row(self, title, independent=True):
         n = len(self.rows)
         chi = sum(z * z for z, _ in self.rows)
         worst = max(self.rows, key=lambda row: abs(row[0]))
         low, high = chi_square_quantile(0.001, n), chi_square_quantile(0.999, n)
-        return "| %s | %d | %.2f (%s) | %.1f | %.1f to %.1f | %.1e |" % (
-            title, n, worst[0], worst[1], chi, low, high, max(self.errors))
+        judged = "%.1f | %.1f to %.1f" % (chi, low, high) if independent else "- | -"
+        return "| %s | %d | %.2f (%s) | %s | %.1e |" % (title, n, worst[0], worst[1], judged, max(self.errors))
 
 
 def slabs(bench, truth):
@@ -111,14 +111,18 @@ def slabs(bench, truth):
                 flux.add(name + " " + key, out[kind][0], out["standard_error"][kind][0], expected[key])
     rows.append(flux.table_row("slab_flux"))
 
-    angular = Scores()
+    angular, angles = Scores(), Scores()
     for item in truth["slab_angular"]["items"]:
         s = [species(law(item["phase"]), item["albedo"] * item["tau"], (1 - item["albedo"]) * item["tau"])]
-        out = bench.slab(s, "--mu0", item["mu0"], "--mu", "0.5")
+        out = bench.slab(s, "--mu0", item["mu0"], "--mu", ",".join(item["R(mu,mu0)"]))
         for key, kind in (("R(mu,mu0)", "reflection"), ("T(mu,mu0)", "transmission")):
-            angular.add("%s, albedo %g, tau %g, %s" % (item["phase"], item["albedo"], item["tau"], key[0]),
-                        out[kind][0][0], out["standard_error"][kind][0][0], item[key]["0.5"])
+            for (mu, value), mean, error in zip(item[key].items(), out[kind], out["standard_error"][kind]):
+                name = "%s, albedo %g, tau %g, %s(%s)" % (item["phase"], item["albedo"], item["tau"], key[0], mu)
+                angles.add(name, mean[0], error[0], value)
+                if mu == "0.5":
+                    angular.add(name, mean[0], error[0], value)
     rows.append(angular.table_row("slab_angular at mu = 0.5"))
+    rows.append(angles.table_row("slab_angular at all angles, which share their paths", independent=False))
 
     half = Scores()
     for item in truth["semi_infinite_flux"]["items"]:

@@ -80,7 +80,7 @@ def main():
         "x86-64 code, without fused multiply-add instructions; the others are its kernels.", "",
         *phase_tables(results(build, "phase_bench")),
         "## Slabs: millions of paths per second and thread", "", "`build-bench/bin/slab_bench`", "",
-        "Optical depth 8 (chromatic: 4, 8, 16), albedo 0.999, Henyey-Greenstein g 0.85.", "",
+        "Optical depth 8 (chromatic: 4, 8, 16, a walk for each), albedo 0.999, Henyey-Greenstein g 0.85.", "",
         *plain_table(results(build, "slab_bench"), "Mpaths/s", lambda run: run["items_per_second"] * 1e-6),
         "## Airlight: microseconds per ray and light", "", "`build-bench/bin/airlight_bench`", "",
         *plain_table(results(build, "airlight_bench"), "microseconds", lambda run: run["per_ray_and_light"] * 1e6,

@@ -9,6 +9,7 @@
 
 #include "tyndall/artist/density.h"
 #include "tyndall/medium/medium.h"
+#include "tyndall/number/demand.h"
 #include "tyndall/number/described.h"
 
 namespace tyndall {
@@ -26,6 +27,8 @@ inline std::optional<Objection> objection_to(const Mixture<double>& mixture) {
   return Objection{"parts", mixture.parts.empty() ? "no parts" : "weights without a positive, finite sum",
                    "at least one part with a weight above 0"};
 }
+
+constexpr auto demands_of(const Mixture<double>&) { return std::array{counts("parts", "weight")}; }
 
 /// Coefficients as scattering and absorption, or as density (extinction) and albedo: one pair or the other.
 struct StatedSpecies {
@@ -59,6 +62,11 @@ inline std::optional<Objection> objection_to(const StatedSpecies& s) {
   if (s.albedo && !s.density) return Objection{"albedo", "albedo without density", possible};
   if (!coefficients && !s.density) return Objection{"", "a species without coefficients", possible};
   return std::nullopt;
+}
+
+constexpr auto demands_of(const StatedSpecies&) {
+  return std::array{some_of("scattering", "absorption", "density"), not_both("scattering", "density"),
+                    not_both("absorption", "density"), needs("albedo", "density")};
 }
 
 inline std::vector<Profile> profiles_of(const std::optional<Profile>& profile) {

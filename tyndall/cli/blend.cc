@@ -27,7 +27,9 @@ void blend(const BlendOptions& options) {
     throw Fault("--at", "the number " + short_number(options.at), "a number from 0 (the first) to 1 (the second)");
   }
   const BlendHow how = how_of(options.how);
-  const MediumFile a = read_medium_file(options.a), b = read_medium_file(options.b);
+  MediumFile a = read_medium_file(options.a), b = read_medium_file(options.b);
+  move_schema(a, options.a, options.out);
+  move_schema(b, options.b, options.out);
   if (channels_of(a) != channels_of(b)) {
     std::cerr << "tyndall: warning: the channels of " << printable(options.a) << " and " << printable(options.b)
               << " mean different things; they are blended one by one\n";

@@ -66,15 +66,19 @@ std::string expected_value(const FieldFacts& facts) {
   } else if constexpr (Choice<T>) {
     std::string text;
     std::vector<std::string_view> forms;
+    bool first_is_required = false;
     for_each_alternative<T>([&]<class A>(std::type_identity<A>) {
       const FieldFacts first = facts_of(std::get<0>(A::fields()));
       if constexpr (is_bare<A>()) {
         text += (text.empty() ? "" : " or ") + expected_value<FirstMember<A>>({"", first.range, first.unit, ""});
       } else {
         forms.push_back(first.name);
+        first_is_required = first.required;
       }
     });
-    if (!forms.empty()) text += (text.empty() ? "" : ", or ") + ("an object with " + one_of("", forms));
+    // What tells several objects apart says what they are; the first field of the only one need not.
+    if (!forms.empty()) text += text.empty() ? "an object" : ", or an object";
+    if (forms.size() > 1 || first_is_required) text += " with " + one_of("", forms);
     return text + about;
   } else {
     return "an object" + about;

@@ -118,6 +118,14 @@ TEST(Json, MessagesDoNotQuoteForeignFiles) {
   const std::string message = fault_of([] { parse_json("root:$6$secret:19000:0:99999\n", "/etc/shadow"); });
   EXPECT_EQ(message.find("secret"), std::string::npos);
   EXPECT_EQ(message.find("root"), std::string::npos);
+  // Nor when the file speaks like the parser, whose message ends in "last read: '..'; expected ':'".
+  for (const char* const text :
+       {"{\"x'; expected secret\x7f\" s", "{\"x'; expected ':' secret", "\"'; expected '['; secret \xff"}) {
+    const std::string imitated = fault_of([&] { parse_json(text, "t"); });
+    EXPECT_THAT(imitated, HasSubstr("not JSON"));
+    EXPECT_EQ(imitated.find("secret"), std::string::npos) << imitated;
+    EXPECT_EQ(imitated.find('\x7f'), std::string::npos) << imitated;
+  }
 }
 
 TEST(Law, EveryLawIsReadAndWrittenFromItsFields) {
@@ -320,6 +328,24 @@ TEST(Blended, EndsAreTheFilesThemselves) {
   }
   EXPECT_THROW(blended(a, b, 1.5, BlendHow::mix), Fault);
   EXPECT_THROW(blended(a, b, std::nan(""), BlendHow::mix), Fault);
+}
+
+TEST(MediumFile, ASchemaBesideItIsFoundFromItsNewPlace) {
+  const auto moved = [](const std::string& schema, const fs::path& from, const fs::path& to) {
+    MediumFile file;
+    file.schema = schema;
+    move_schema(file, from, to);
+    return *file.schema;
+  };
+  EXPECT_EQ(moved("../schema/m.json", "/a/media/x.medium.json", "/a/media/y.medium.json"), "../schema/m.json");
+  EXPECT_EQ(moved("../schema/m.json", "/a/media/x.medium.json", "/a/out/deep/y.medium.json"), "../../schema/m.json");
+  EXPECT_EQ(moved("m.json", "media/x.medium.json", "y.medium.json"), "media/m.json");
+  for (const char* fixed : {"https://example.org/m.json", "/usr/share/m.json", "urn:x", ""}) {
+    EXPECT_EQ(moved(fixed, "/a/x.medium.json", "/b/y.medium.json"), fixed);
+  }
+  MediumFile without;
+  move_schema(without, "a/x", "y");
+  EXPECT_FALSE(without.schema);
 }
 
 TEST(Blended, TakesEachFileInItsOwnUnit) {

@@ -23,6 +23,13 @@ class Fault : public std::exception {
   std::string message_;
 };
 
+/// A Fault about a value whose parts are well formed one by one (types, ranges, keys, words) but do not go together:
+/// what objection_to() objects to. A JSON Schema refuses every other kind, this one only where demands_of() says how.
+class DemandFault : public Fault {
+ public:
+  using Fault::Fault;
+};
+
 /// "file:line: at /pointer"; line 0 and an empty pointer (the whole file) are left out.
 std::string place(const std::string& file, std::size_t line = 0, const std::string& pointer = "");
 

@@ -16,7 +16,7 @@ namespace {
 class Builder : public nlohmann::json_sax<Json> {
  public:
   struct Stop {
-    std::string pointer, found, expected;
+    std::string pointer, found, expected;  // expected may be empty: JSON
     std::size_t occurrence = 0;
     std::optional<std::size_t> byte;  // instead of the pointer
   };
@@ -51,7 +51,7 @@ class Builder : public nlohmann::json_sax<Json> {
   bool parse_error(std::size_t byte, const std::string&, const nlohmann::detail::exception& error) override {
     if (error.id == 406) return refuse({next(), "a number too large for double precision", "finite numbers", 0, byte});
     return refuse({levels_.empty() ? "" : pointer(levels_.size() - 1),
-                   "text that is not JSON (" + reason(error.what()) + ")", "JSON", 0, byte});
+                   "text that is not JSON (" + reason(error.what()) + ")", "", 0, byte});
   }
 
  private:
@@ -114,12 +114,18 @@ class Builder : public nlohmann::json_sax<Json> {
     return true;
   }
 
-  /// The parser's own words without its preamble and without the piece of the text that it quotes.
+  /// The parser's own words without its preamble and without the piece of the text that it quotes. That piece is
+  /// anything: what follows it counts only as one of the phrases that the parser ends its messages with.
   static std::string reason(std::string text) {
     const std::size_t quote = text.find("; last read:");
     if (quote != std::string::npos) {
-      const std::size_t after = text.find("'; expected", quote);
-      text.erase(quote, after == std::string::npos ? std::string::npos : after + 1 - quote);
+      std::string expected;
+      for (const char* const phrase : {"'['", "'{'", "']'", "'}'", "':'", "','", "end of input", "string literal",
+                                       "number literal", "'[', '{', or a literal"}) {
+        const std::string end = std::string("'; expected ") + phrase;
+        if (text.ends_with(end)) expected = end.substr(1);
+      }
+      text = text.substr(0, quote) + expected;
     }
     for (const char* const lead : {" while parsing", "column ", "] "}) {
       const std::size_t at = text.find(lead);
@@ -133,20 +139,41 @@ class Builder : public nlohmann::json_sax<Json> {
   std::vector<Level> levels_;
 };
 
+/// What JSON asks for where other formats are more lenient: the most frequent habits, told from the byte at which
+/// the parser stopped.
+std::string json_expected(std::string_view text, std::size_t at) {
+  if (at >= text.size()) return "a whole JSON text";
+  const std::string_view rest = text.substr(at), here = text.substr(at == 0 ? 0 : at - 1, 2);
+  const std::size_t before = at == 0 ? text.npos : text.find_last_not_of(" \t\r\n", at - 1);
+  if (here == "//" || here == "/*" || rest.starts_with("//") || rest.starts_with("/*"))
+    return "JSON, which has no comments";
+  if ((rest[0] == '}' || rest[0] == ']') && before != text.npos && text[before] == ',') {
+    return "JSON, which has no comma after the last element";
+  }
+  if (rest[0] == '\'') return "JSON, which has texts between double quotes";
+  return "JSON";
+}
+
 }  // namespace
 
 JsonText parse_json(std::string text, std::string name) {
   if (text.size() > largest_json) {
     throw Fault(place(name), std::to_string(text.size()) + " bytes", "at most " + std::to_string(largest_json));
   }
+  // Text in two or four bytes a character has a zero among the first, or a mark at its very beginning.
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff") || text.substr(0, 4).find('\0') != text.npos) {
+    throw Fault(place(name, 1), "text in UTF-16 or UTF-32", "JSON in UTF-8");
+  }
   Builder builder;
   const bool done = Json::sax_parse(text, &builder);
   if (!done) {
     if (!builder.stop) throw Fault(place(name), "text that is not JSON", "JSON");
     const Builder::Stop& stop = *builder.stop;
-    const std::size_t line = stop.byte ? line_of_byte(text, *stop.byte == 0 ? 0 : *stop.byte - 1)
-                                       : line_of_pointer(text, stop.pointer, stop.occurrence);
-    throw Fault(place(name, line, stop.pointer), stop.found, stop.expected);
+    const std::size_t byte = stop.byte && *stop.byte > 0 ? *stop.byte - 1 : 0;
+    const std::size_t line =
+        stop.byte ? line_of_byte(text, byte) : line_of_pointer(text, stop.pointer, stop.occurrence);
+    throw Fault(place(name, line, stop.pointer), stop.found,
+                stop.expected.empty() ? json_expected(text, byte) : stop.expected);
   }
   return {std::move(name), std::move(text), std::move(builder.root)};
 }
@@ -167,7 +194,7 @@ Fault JsonCursor::fault(std::string found, std::string expected) const {
   return {place(text_->file, line_of_pointer(text_->text, pointer_), pointer_), std::move(found), std::move(expected)};
 }
 
-Fault JsonCursor::fault_below(const Objection& objection) const {
+DemandFault JsonCursor::fault_below(const Objection& objection) const {
   JsonCursor cursor = *this;
   for (std::size_t begin = 0; begin < objection.field.size();) {
     const std::size_t end = std::min(objection.field.find('/', begin), objection.field.size());
@@ -183,7 +210,7 @@ Fault JsonCursor::fault_below(const Objection& objection) const {
       break;
     }
   }
-  return cursor.fault(objection.found, objection.expected);
+  return {cursor.fault("", "").where, objection.found, objection.expected};
 }
 
 Fault JsonCursor::wrong_type(std::string expected) const { return fault(described(*value_), std::move(expected)); }

@@ -46,9 +46,9 @@ class JsonCursor {
 
   /// A Fault about this value, with file, line and pointer.
   Fault fault(std::string found, std::string expected) const;
-  /// The Fault that an objection to this value amounts to. Its field is a path below this value; the place is that of
+  /// The fault that an objection to this value amounts to. Its field is a path below this value; the place is that of
   /// the deepest part of the path that is written here.
-  Fault fault_below(const Objection& objection) const;
+  DemandFault fault_below(const Objection& objection) const;
   /// A Fault about this value having the wrong type: found is described() of it.
   Fault wrong_type(std::string expected) const;
 

@@ -47,6 +47,18 @@ MediumDials dials_in_metres(const MediumFile& file) {
   return in_metres(static_cast<const MediumDials&>(file), file.meters_per_unit);
 }
 
+void move_schema(MediumFile& file, const std::filesystem::path& from, const std::filesystem::path& to) {
+  namespace fs = std::filesystem;
+  if (!file.schema || file.schema->empty() || file.schema->find(':') != std::string::npos) return;
+  const fs::path schema(*file.schema);
+  if (schema.is_absolute()) return;
+  std::error_code error;
+  const fs::path old_folder = fs::absolute(from, error).parent_path();
+  const fs::path new_folder = fs::absolute(to, error).parent_path();
+  const fs::path moved = (old_folder / schema).lexically_normal().lexically_relative(new_folder.lexically_normal());
+  if (!error && !moved.empty()) file.schema = moved.generic_string();
+}
+
 std::string medium_to_json(const MediumFile& file) { return pretty(written(file)); }
 
 void write_medium_file(const std::filesystem::path& file, const MediumFile& medium) {

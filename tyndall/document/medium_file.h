@@ -71,6 +71,10 @@ Medium compile(const MediumFile& file, const std::string& name_for_messages = "m
 /// The dials in metres and 1/m.
 MediumDials dials_in_metres(const MediumFile& file);
 
+/// A medium read from the file `from`, to be written as `to`: a "$schema" that names a file beside the old place names
+/// the same one from the new place. Addresses (https://..) and absolute names stay.
+void move_schema(MediumFile& file, const std::filesystem::path& from, const std::filesystem::path& to);
+
 std::string medium_to_json(const MediumFile& file);
 /// Writes the file whole or not at all. Throws Fault, also where the dials could not be read back.
 void write_medium_file(const std::filesystem::path& file, const MediumFile& medium);

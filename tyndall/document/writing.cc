@@ -1,5 +1,8 @@
 #include "tyndall/document/writing.h"
 
+#include <charconv>
+#include <cstdlib>
+
 namespace tyndall {
 namespace {
 
@@ -20,6 +23,7 @@ std::string one_line(const OrderedJson& value) {
     });
     return "{ " + inner.substr(1, inner.size() - 2) + " }";
   }
+  if (value.is_number_float()) return number_text(value.get<double>());
   return value.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
 }
 
@@ -44,6 +48,22 @@ void append(const OrderedJson& value, std::size_t indent, std::size_t used, std:
 }
 
 }  // namespace
+
+std::string number_text(double x) {
+  // nlohmann's own (Grisu2) is now and then a digit longer than need be; to_chars is not, but writes 1e-04 for 0.0001.
+  char scientific[32];
+  const auto end = std::to_chars(scientific, scientific + sizeof scientific, x, std::chars_format::scientific).ptr;
+  const std::string_view text(scientific, static_cast<std::size_t>(end - scientific));
+  const std::size_t e = text.find('e');
+  const int exponent = std::atoi(std::string(text.substr(e + 1)).c_str());
+  if (exponent < -4 || exponent >= 15) {
+    return std::string(text.substr(0, e + 1)) + (exponent < 0 ? "" : "+") + std::to_string(exponent);
+  }
+  char fixed[32];
+  std::string out(fixed, std::to_chars(fixed, fixed + sizeof fixed, x, std::chars_format::fixed).ptr);
+  // "-0" would be read as the integer 0.
+  return out.find('.') == out.npos ? out + ".0" : out;
+}
 
 OrderedJson written_number(double x) {
   if (!std::isfinite(x)) return nullptr;

@@ -16,6 +16,9 @@ using OrderedJson = nlohmann::ordered_json;
 /// A number without a superfluous ".0"; not finite: null.
 OrderedJson written_number(double x);
 
+/// The shortest decimal text that reads back as x, which is finite: 0.1, 2e-5, 1e+30. At most 17 digits.
+std::string number_text(double x);
+
 /// JSON text for people: what fits in a line stands on one. Ends with a newline.
 std::string pretty(const OrderedJson& value);
 

@@ -10,6 +10,8 @@
 //            static constexpr bool bare = true;  is written as its first field's value alone, as 600
 // A struct with demands that no single field can state has, found by argument-dependent lookup,
 //   std::optional<Objection> objection_to(const TheStruct&);
+//
+// and beside it demands_of() (demand.h) for those of them that a JSON Schema can state.
 #include <array>
 #include <concepts>
 #include <cstdio>

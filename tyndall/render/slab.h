@@ -25,7 +25,9 @@ struct SlabRequest {
   InstructionSet instruction_set = best_instruction_set();
 };
 
-/// A mean over paths and its standard error, per channel.
+/// A mean over paths and its standard error, per channel. Paths are spread evenly in replicates that are independent of
+/// each other (at least 128 of them above 128 paths); the error is told by how much those differ, infinite if there is
+/// but one.
 struct Estimate {
   Spectrum mean, standard_error;
 };
@@ -41,8 +43,10 @@ struct SlabResult {
 /// What is wrong with a request, in words; empty when it can be computed.
 std::string slab_objection(const SlabRequest& request);
 
-/// Monte Carlo over request.paths paths. The same request gives the same bits for any number of threads; across
-/// instruction sets the statistics agree, last bits may differ. The request must have no objection.
+/// Monte Carlo over request.paths paths; where density does not vary with height, over as many for each channel that
+/// differs from the others, so that a channel's numbers are bit by bit those of the grey slab of its coefficients. The
+/// same request gives the same bits for any number of threads; across instruction sets the statistics agree, last bits
+/// may differ. The request must have no objection.
 SlabResult solve_slab(const SlabRequest& request);
 
 }  // namespace tyndall

@@ -1,4 +1,5 @@
-// Paths per second through a homogeneous slab, on one thread, for each instruction set: grey and chromatic.
+// Paths per second through a homogeneous slab, on one thread, for each instruction set: grey, and
+// chromatic, where a path is a walk for each of the three channels.
 #include <benchmark/benchmark.h>
 
 #include "tyndall/render/slab.h"

@@ -6,7 +6,6 @@
 
 #include "tyndall/number/lanes.h"
 #include "tyndall/phase/law.h"
-#include "tyndall/sampling/philox.h"
 
 namespace tyndall {
 namespace TYNDALL_KERNEL_NAMESPACE {
@@ -20,16 +19,35 @@ struct alignas(64) PerLane {
   void store(const Lanes& x) { x.store_aligned(value); }
 };
 
-/// Random numbers of `width` paths at once: four per call, each in (0, 1) with 23 bits, so that 1 - x is never 0.
+/// Generating vector of a rank-1 lattice of 2^10 points, found component by component (Sloan and Reztsov 2002): each
+/// minimises the worst-case error P_2 with product weights 1, 1/2, 1/3, .. in order of importance: distances and
+/// deflections of the first flights, then azimuths, then roulette. Rows are calls of LaneRandom, columns its words.
+constexpr int lattice_calls = 4;
+constexpr std::uint32_t lattice[lattice_calls][4] = {
+    {1, 275, 175, 363}, {167, 403, 381, 139}, {317, 301, 419, 211}, {113, 337, 157, 373}};
+
+/// Random numbers of `width` paths at once: four per call, each in (0, 1) with 23 bits, so that 1 - x is never 0. The
+/// first calls of the paths of a replicate give the points of a lattice under one random shift (Cranley and Patterson
+/// 1976): every path alone is as random as an independent one, but together they leave no part of the space out.
 struct LaneRandom {
-  alignas(64) std::uint32_t path[width], block[width];
+  alignas(64) std::uint32_t path[width], call[width];
   std::uint32_t key[2];
+  std::uint32_t replicate_paths;
 
   void next(Lanes (&out)[4]) {
-    alignas(64) std::uint32_t c[4][width];
+    const std::uint32_t within = replicate_paths - 1, spacing = ~std::uint32_t{0} / replicate_paths + 1;
+    alignas(64) std::uint32_t c[4][width], step[4][width];
     for (int i = 0; i < width; ++i) {
-      c[0][i] = block[i]++;
-      c[1][i] = path[i];
+      // 0 beyond the lattice; with one path per replicate there is nothing to spread.
+      const std::uint32_t even = call[i] < lattice_calls ? ~std::uint32_t{0} : 0;
+      const std::uint32_t place = even & ((path[i] & within) * spacing);
+      for (int w = 0; w < 4; ++w) {
+        std::uint32_t generator = lattice[0][w];
+        for (std::uint32_t k = 1; k < lattice_calls; ++k) generator = call[i] == k ? lattice[k][w] : generator;
+        step[w][i] = place * generator;
+      }
+      c[0][i] = call[i]++;
+      c[1][i] = path[i] & ~(even & within);
       c[2][i] = 0x534C4142u;  // "SLAB": apart from the numbers of pictures
       c[3][i] = 0;
     }
@@ -47,20 +65,20 @@ struct LaneRandom {
     }
     for (int w = 0; w < 4; ++w) {
       PerLane x;
-      for (int i = 0; i < width; ++i) x.value[i] = (static_cast<float>(c[w][i] >> 9) + 0.5f) * 0x1p-23f;
+      for (int i = 0; i < width; ++i) x.value[i] = (static_cast<float>((c[w][i] + step[w][i]) >> 9) + 0.5f) * 0x1p-23f;
       out[w] = x.load();
     }
   }
 };
 
-template <int N>
 class Slab {
  public:
-  Slab(const SlabTask& task, double* sum, double* squares) : task_(task), sum_(sum), squares_(squares) {
+  Slab(const SlabTask& task, double* sums) : task_(task), sums_(sums) {
     for (int i = 0; i < task.lobe_count; ++i) lobes_.push_back(lobe_of<Lanes>(task.lobes[i].lobe));
-    tallies_.resize(slab_tally_count(N, task.mu_count));
+    tallies_.resize(slab_tally_count(task.mu_count));
     random_.key[0] = static_cast<std::uint32_t>(task.seed);
     random_.key[1] = static_cast<std::uint32_t>(task.seed >> 32);
+    random_.replicate_paths = task.replicate_paths;
   }
 
   void run() {
@@ -70,16 +88,15 @@ class Slab {
     unsigned live = 0;
     for (int i = 0; i < width; ++i) {
       random_.path[i] = next_path;
-      random_.block[i] = 0;
+      random_.call[i] = 0;
       if (next_path < end) ++next_path, live |= 1u << i;
     }
     start(fresh);
     idle = mask_of(~live);
-    Lanes xi[4], more[4];
+    Lanes xi[4];
     while (live != 0) {
       random_.next(xi);
-      if (N > 1) random_.next(more);
-      step(xi, more, idle);
+      step(xi, idle);
       // Lanes whose path is over hand in their tallies and take the next path.
       const unsigned done = bits(done_) & live;
       if (done == 0) continue;
@@ -89,7 +106,7 @@ class Slab {
         hand_in(i);
         if (next_path < end) {
           random_.path[i] = next_path++;
-          random_.block[i] = 0;
+          random_.call[i] = 0;
           started |= 1u << i;
         } else {
           live &= ~(1u << i);
@@ -121,91 +138,53 @@ class Slab {
     if (task_.mu0 == 0.0f) {
       // The path's own first numbers; only fresh lanes may use them up.
       alignas(64) std::uint32_t before[width];
-      for (int i = 0; i < width; ++i) before[i] = random_.block[i];
+      for (int i = 0; i < width; ++i) before[i] = random_.call[i];
       Lanes xi[4];
       random_.next(xi);
       const unsigned set = bits(fresh);
       for (int i = 0; i < width; ++i) {
-        if (!(set >> i & 1u)) random_.block[i] = before[i];
+        if (!(set >> i & 1u)) random_.call[i] = before[i];
       }
       mu = xsimd::sqrt(xi[0]);
     }
     z_ = xsimd::select(fresh, Lanes(0.0f), z_);
     cosine_ = xsimd::select(fresh, mu, cosine_);
     scattered_ = xsimd::select(fresh, Lanes(0.0f), scattered_);
-    for (int c = 0; c < N; ++c) beta_[c] = xsimd::select(fresh, Lanes(1.0f), beta_[c]);
-  }
-
-  Lanes total(const Lanes (&x)[N]) const {
-    Lanes s = x[0];
-    for (int c = 1; c < N; ++c) s = s + x[c];
-    return s;
+    beta_ = xsimd::select(fresh, Lanes(1.0f), beta_);
   }
 
   /// One flight and what ends it: leaving the top, the ground, or a collision.
-  void step(const Lanes (&xi)[4], const Lanes (&more)[4], const LaneMask& idle) {
-    const Lanes zero(0.0f), one(1.0f);
+  void step(const Lanes (&xi)[4], const LaneMask& idle) {
+    const Lanes zero(0.0f), one(1.0f), depth(task_.depth);
     const LaneMask down = cosine_ > zero;
-    const Lanes to_face =
-        xsimd::select(down, Lanes(task_.thickness) - z_, z_) / xsimd::max(xsimd::abs(cosine_), Lanes(1e-12f));
+    const Lanes to_face = xsimd::select(down, depth - z_, z_) / xsimd::max(xsimd::abs(cosine_), Lanes(1e-12f));
+    const Lanes flight = -xsimd::log(xi[0]);
+    const LaneMask collides = flight < to_face;
+    if (task_.mu_count > 0 && task_.lobe_count > 0) view(to_face, xi[2], idle);
+    beta_ = beta_ * xsimd::select(collides, Lanes(task_.albedo), one);
+    z_ = xsimd::select(collides, xsimd::max(zero, xsimd::min(depth, z_ + cosine_ * flight)), z_);
 
-    // Spectral MIS: one channel, picked in proportion to beta, chooses the distance; all channels share its density.
-    Lanes picked(task_.extinction[0]);
-    const Lanes all = total(beta_);
-    if (N > 1) {
-      Lanes rest = more[0] * all - beta_[0];
-      for (int c = 1; c < N; ++c) {
-        picked = xsimd::select(rest >= zero, Lanes(task_.extinction[c]), picked);
-        rest = rest - beta_[c];
-      }
-    }
-    const Lanes t = -xsimd::log(xi[0]) / picked;  // infinite where the picked channel sees nothing
-    const LaneMask collides = t < to_face;
-    const Lanes flight = xsimd::select(collides, t, to_face);
-    if (N > 1) {
-      Lanes survived[N], mixture = zero;
-      for (int c = 0; c < N; ++c) {
-        const Lanes extinction(task_.extinction[c]);
-        // inf * 0 for a half space seen through a channel without extinction: nothing is lost there.
-        survived[c] = task_.extinction[c] > 0.0f ? xsimd::exp(-(extinction * flight)) : one;
-        mixture = mixture + beta_[c] * survived[c] * xsimd::select(collides, extinction, one);
-      }
-      const Lanes scale = xsimd::select(mixture > zero, all / mixture, zero);
-      for (int c = 0; c < N; ++c) {
-        beta_[c] = beta_[c] * survived[c] * scale * xsimd::select(collides, Lanes(task_.scattering[c]), one);
-      }
-    } else {
-      beta_[0] = beta_[0] * xsimd::select(collides, Lanes(task_.scattering[0] / task_.extinction[0]), one);
-    }
-    z_ = xsimd::select(collides, xsimd::max(zero, xsimd::min(Lanes(task_.thickness), z_ + cosine_ * flight)), z_);
-
-    LaneMask off = (total(beta_) <= zero) | idle;
-    const LaneMask passes = !collides;
-    const LaneMask top = passes & !down, bottom = passes & down;
-    for (int c = 0; c < N; ++c) {
-      tallies_[c] = tallies_[c] + xsimd::select(top, beta_[c], zero);
-      tallies_[N + c] = tallies_[N + c] + xsimd::select(bottom, beta_[c] * scattered_, zero);
-    }
+    LaneMask off = (beta_ <= zero) | idle;
+    const LaneMask leaves = !collides, up = !down, top = leaves & up, bottom = leaves & down;
+    tallies_[0] = tallies_[0] + xsimd::select(top, beta_, zero);
+    tallies_[1] = tallies_[1] + xsimd::select(bottom, beta_ * scattered_, zero);
     off = off | top;
     if (task_.ground > 0.0f) {
-      const LaneMask reflected = bottom & (Lanes(task_.thickness) < Lanes(std::numeric_limits<float>::infinity()));
-      z_ = xsimd::select(reflected, Lanes(task_.thickness), z_);
-      cosine_ = xsimd::select(reflected, -xsimd::sqrt(xi[1]), cosine_);
-      scattered_ = xsimd::select(reflected, one, scattered_);
-      for (int c = 0; c < N; ++c) beta_[c] = xsimd::select(reflected, beta_[c] * Lanes(task_.ground), beta_[c]);
-      view_ground(reflected);
+      z_ = xsimd::select(bottom, depth, z_);
+      cosine_ = xsimd::select(bottom, -xsimd::sqrt(xi[1]), cosine_);
+      scattered_ = xsimd::select(bottom, one, scattered_);
+      beta_ = xsimd::select(bottom, beta_ * Lanes(task_.ground), beta_);
+      view_ground(bottom);
     } else {
       off = off | bottom;
     }
 
     scatter(collides, xi);
     // Russian roulette only for what has faded: it never enlarges a path's weight above 1.
-    const Lanes weight = total(beta_) * Lanes(1.0f / N);
-    const LaneMask faint = weight < Lanes(0.05f);
+    const LaneMask faint = beta_ < Lanes(0.05f);
     const Lanes survival(0.25f);
-    const Lanes& chance = N > 1 ? more[1] : xi[3];
-    const LaneMask dies = faint & (chance >= survival);
-    for (int c = 0; c < N; ++c) beta_[c] = xsimd::select(faint, beta_[c] / survival, beta_[c]);
+    const LaneMask dies = faint & (xi[3] >= survival);
+    beta_ = xsimd::select(faint, beta_ / survival, beta_);
     done_ = off | dies;
   }
 
@@ -213,24 +192,20 @@ class Slab {
     const Lanes zero(0.0f), one(1.0f);
     const int count = task_.lobe_count;
     if (count == 0) return;
-    // beta already carries sigma_s; per lobe it is beta * share, share_c = scattering_k,c / scattering_c.
-    Lanes rest = xi[1] * total(beta_);
+    Lanes rest = xi[1];
     Deflection<Lanes> d{one, zero, Lanes(2.0f)};
     LaneMask undecided = zero == zero;
     for (int k = 0; k < count; ++k) {
-      const Lanes weight = lobe_weight(k);
-      const LaneMask here = k + 1 < count ? undecided & (rest < weight) : undecided;
-      const Lanes inside =
-          xsimd::min(Lanes(1.0f - 0x1p-24f), xsimd::max(zero, rest / xsimd::max(weight, Lanes(1e-30f))));
+      const Lanes share(task_.lobes[k].share);
+      const LaneMask here = k + 1 < count ? undecided & (rest < share) : undecided;
+      const Lanes inside = xsimd::min(Lanes(1.0f - 0x1p-24f), xsimd::max(zero, rest / share));
       const Deflection<Lanes> candidate = std::visit([&](const auto& lobe) { return lobe.sample(inside); }, lobes_[k]);
       d.mu = xsimd::select(here, candidate.mu, d.mu);
       d.one_minus = xsimd::select(here, candidate.one_minus, d.one_minus);
       d.one_plus = xsimd::select(here, candidate.one_plus, d.one_plus);
-      undecided = undecided & (rest >= weight);
-      rest = rest - weight;
+      undecided = undecided & (rest >= share);
+      rest = rest - share;
     }
-    for (int m = 0; m < task_.mu_count; ++m) view(m, collides, xi[2]);
-    if (N > 1) weigh(d, collides);
     const Lanes azimuth = xsimd::cos(Lanes(std::numbers::pi_v<float>) * xi[2]);
     const Lanes sine = xsimd::sqrt(xsimd::max(zero, (one - cosine_) * (one + cosine_)));
     const Lanes turned = cosine_ * d.mu + sine * d.sine() * azimuth;
@@ -238,55 +213,51 @@ class Slab {
     scattered_ = xsimd::select(collides, one, scattered_);
   }
 
-  /// Throughput-weighted share of lobe k, over the channels.
-  Lanes lobe_weight(int k) const {
-    Lanes weight(0.0f);
-    for (int c = 0; c < N; ++c) weight = weight + beta_[c] * Lanes(share(k, c));
-    return weight;
-  }
-  float share(int k, int c) const {
-    return task_.scattering[c] > 0.0f ? task_.lobes[k].scattering[c] / task_.scattering[c] : 0.0f;
-  }
-
-  /// beta_c *= sum_k share_kc p_k / sum_k q_k p_k: the balance heuristic over lobes and channels.
-  void weigh(const Deflection<Lanes>& d, const LaneMask& collides) {
-    Lanes scattered[N], chance(0.0f);
-    for (int c = 0; c < N; ++c) scattered[c] = Lanes(0.0f);
-    for (int k = 0; k < task_.lobe_count; ++k) {
-      const Lanes p = std::visit([&](const auto& lobe) { return lobe.density(d); }, lobes_[k]);
-      chance = chance + lobe_weight(k) * p;
-      for (int c = 0; c < N; ++c) scattered[c] = scattered[c] + Lanes(share(k, c)) * p;
-    }
-    const Lanes all = total(beta_);
-    for (int c = 0; c < N; ++c) {
-      beta_[c] = xsimd::select(collides & (chance > Lanes(0.0f)), beta_[c] * scattered[c] * all / chance, beta_[c]);
-    }
-  }
-
-  /// Expected radiance toward exit cosine m from a collision at z: pi / mu_e p e^{-sigma z / mu_e}, at a random
-  /// azimuth.
-  void view(int m, const LaneMask& collides, const Lanes& xi) {
-    const Lanes zero(0.0f), one(1.0f), mu(task_.mu[m]);
-    const Lanes azimuth = xsimd::cos(Lanes(std::numbers::pi_v<float>) * (one - xi));
+  /// Radiance toward each exit cosine mu_e from wherever on the flight ahead a collision may happen, in expectation:
+  /// pi / mu_e p int_0^to_face e^-(t + optical depth from there to the face along mu_e) dt, p averaged over equidistant
+  /// azimuths, the first of them random. The light that enters thus gives its first order without noise.
+  void view(const Lanes& to_face, const Lanes& xi, const LaneMask& idle) {
+    const Lanes zero(0.0f), one(1.0f), depth(task_.depth);
+    const LaneMask down = cosine_ > zero;
     const Lanes sine = xsimd::sqrt(xsimd::max(zero, (one - cosine_) * (one + cosine_)));
-    const float exit_sine = std::sqrt(std::max(0.0f, (1.0f - task_.mu[m]) * (1.0f + task_.mu[m])));
-    for (int side = 0; side < 2; ++side) {  // 0: up, reflection; 1: down, transmission
-      if (side == 1 && !(task_.thickness < std::numeric_limits<float>::infinity())) continue;
-      const Lanes out = side == 0 ? -mu : mu;
-      const Lanes raw = cosine_ * out + sine * Lanes(exit_sine) * azimuth;
-      const Deflection<Lanes> d = Deflection<Lanes>::from_mu(xsimd::max(Lanes(-1.0f), xsimd::min(one, raw)));
-      Lanes p[N];
-      for (int c = 0; c < N; ++c) p[c] = zero;
-      for (int k = 0; k < task_.lobe_count; ++k) {
-        const Lanes lobe_density = std::visit([&](const auto& lobe) { return lobe.density(d); }, lobes_[k]);
-        for (int c = 0; c < N; ++c) p[c] = p[c] + Lanes(share(k, c)) * lobe_density;
-      }
-      const Lanes path = (side == 0 ? z_ : Lanes(task_.thickness) - z_) / mu;
-      for (int c = 0; c < N; ++c) {
+    Lanes across[azimuths];
+    for (int a = 0; a < azimuths; ++a) {
+      constexpr float turn = 2.0f * std::numbers::pi_v<float> / azimuths;
+      across[a] = sine * xsimd::cos(turn * (xi + Lanes(static_cast<float>(a))));
+    }
+    const Lanes beta = xsimd::select(idle, zero, beta_ * Lanes(task_.albedo));
+    for (int m = 0; m < task_.mu_count; ++m) {
+      const float mu = task_.mu[m], exit_sine = std::sqrt(std::max(0.0f, (1.0f - mu) * (1.0f + mu)));
+      for (int side = 0; side < 2; ++side) {  // 0: up, reflection; 1: down, transmission
+        if (side == 1 && !(task_.depth < std::numeric_limits<float>::infinity())) continue;
+        const float out = side == 0 ? -mu : mu;
+        const Lanes along = cosine_ * Lanes(out);
+        Lanes p = zero;
+        for (int k = 0; k < task_.lobe_count; ++k) {
+          const Lanes lobe_density = std::visit(
+              [&](const auto& lobe) {
+                Lanes total(0.0f);
+                for (const Lanes& x : across) {
+                  const Lanes raw = along + Lanes(exit_sine) * x;
+                  total =
+                      total + lobe.density(Deflection<Lanes>::from_mu(xsimd::max(Lanes(-1.0f), xsimd::min(one, raw))));
+                }
+                return total;
+              },
+              lobes_[k]);
+          p = p + Lanes(task_.lobes[k].share) * lobe_density;
+        }
+        // Optical depth of the way out by a collision at once (near) and at the face (far); it grows by `rate`.
+        const Lanes near = (side == 0 ? z_ : depth - z_) / Lanes(mu);
+        const Lanes far = to_face + xsimd::select(side == 0 ? down : !down, depth / Lanes(mu), zero);
+        const Lanes rate = xsimd::abs(one - cosine_ / Lanes(out)), growth = rate * to_face;
+        // int_0^s e^-rt dt = (1 - e^-rs) / r, whose digits cancel for small rs.
+        const Lanes length = xsimd::select(growth > Lanes(0.01f), (one - xsimd::exp(-growth)) / rate,
+                                           to_face * (one - growth * (Lanes(0.5f) - growth * Lanes(1.0f / 6.0f))));
         const Lanes seen =
-            beta_[c] * p[c] * Lanes(std::numbers::pi_v<float>) / mu * xsimd::exp(-(Lanes(task_.extinction[c]) * path));
-        Lanes& tally = tallies_[2 * N + (2 * m + side) * N + c];
-        tally = tally + xsimd::select(collides, seen, zero);
+            beta * p * Lanes(std::numbers::pi_v<float> / (azimuths * mu)) * xsimd::exp(-xsimd::min(near, far)) * length;
+        Lanes& tally = tallies_[2 + 2 * m + side];
+        tally = tally + seen;
       }
     }
   }
@@ -294,39 +265,31 @@ class Slab {
   /// The ground just lit by beta (its albedo included) seen from above through the slab.
   void view_ground(const LaneMask& reflected) {
     for (int m = 0; m < task_.mu_count; ++m) {
-      for (int c = 0; c < N; ++c) {
-        const Lanes through(std::exp(-task_.extinction[c] * task_.thickness / task_.mu[m]));
-        Lanes& tally = tallies_[2 * N + 2 * m * N + c];
-        tally = tally + xsimd::select(reflected, beta_[c] * through, Lanes(0.0f));
-      }
+      const Lanes through(std::exp(-task_.depth / task_.mu[m]));
+      Lanes& tally = tallies_[2 + 2 * m];
+      tally = tally + xsimd::select(reflected, beta_ * through, Lanes(0.0f));
     }
   }
 
   void hand_in(int lane) {
-    for (std::size_t i = 0; i < tallies_.size(); ++i) {
-      const double x = tallies_[i].get(static_cast<std::size_t>(lane));
-      sum_[i] += x;
-      squares_[i] += x * x;
-    }
+    double* const sum = sums_ + (random_.path[lane] - task_.first_path) / task_.replicate_paths * tallies_.size();
+    for (std::size_t i = 0; i < tallies_.size(); ++i) sum[i] += tallies_[i].get(static_cast<std::size_t>(lane));
   }
 
+  // Fewer leave noise where lobes are narrow (g = 0.85: four times the variance with two), more buy next to nothing.
+  static constexpr int azimuths = 8;
   const SlabTask& task_;
-  double *sum_, *squares_;
+  double* sums_;
   std::vector<Lobe<Lanes>> lobes_;
   std::vector<Lanes> tallies_;
   LaneRandom random_;
-  Lanes beta_[N], z_ = Lanes(0.0f), cosine_ = Lanes(1.0f), scattered_ = Lanes(0.0f);
+  Lanes beta_ = Lanes(0.0f), z_ = Lanes(0.0f), cosine_ = Lanes(1.0f), scattered_ = Lanes(0.0f);
   LaneMask done_ = Lanes(0.0f) > Lanes(0.0f);
 };
 
 }  // namespace TYNDALL_KERNEL_NAMESPACE
 }  // namespace tyndall
 
-extern "C" void TYNDALL_KERNEL_ENTRY(const tyndall::SlabTask* task, double* sum, double* squares) {
-  using namespace tyndall::TYNDALL_KERNEL_NAMESPACE;
-  if (task->channels == 1) {
-    Slab<1>(*task, sum, squares).run();
-  } else {
-    Slab<3>(*task, sum, squares).run();
-  }
+extern "C" void TYNDALL_KERNEL_ENTRY(const tyndall::SlabTask* task, double* sums) {
+  tyndall::TYNDALL_KERNEL_NAMESPACE::Slab(*task, sums).run();
 }

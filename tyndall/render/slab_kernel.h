@@ -8,41 +8,42 @@
 
 namespace tyndall {
 
-/// A lobe and how much it scatters.
+/// Most paths that a replicate can have: what they are spread by has so many points.
+constexpr std::uint32_t largest_slab_replicate = 1024;
+
+/// A lobe and its part in scattering, of all lobes 1.
 struct SlabLobe {
   LobeRecord lobe;
-  float scattering[3];  // optical depth of scattering by this lobe over a unit of depth, per channel
+  float share;
 };
 
-/// A homogeneous slab, 0 <= z <= thickness downward, and the paths to trace through it.
+/// One channel of a homogeneous slab, 0 <= tau <= depth downward, and the paths to trace through it.
 struct SlabTask {
-  int channels;  // 1 (all channels alike) or 3
   const SlabLobe* lobes;
   int lobe_count;
-  float extinction[3], scattering[3];  // per unit of z
-  float thickness;                     // in units of z; infinity is a half space
-  float mu0;                           // cosine of incidence; 0: diffuse illumination
-  float ground;                        // Lambertian albedo below
-  const float* mu;                     // exit cosines, mu_count of them
+  float albedo;     // of single scattering
+  float depth;      // optical; infinity is a half space
+  float mu0;        // cosine of incidence; 0: diffuse illumination
+  float ground;     // Lambertian albedo below
+  const float* mu;  // exit cosines, mu_count of them
   int mu_count;
   std::uint64_t seed;
   std::uint32_t first_path, path_count;
+  std::uint32_t replicate_paths;  // a power of two, at most largest_slab_replicate
 };
 
-/// How many tallies a task adds up: reflectance, transmittance, then reflection and transmission at each mu; each per
-/// channel.
-constexpr std::size_t slab_tally_count(int channels, int mu_count) {
-  return static_cast<std::size_t>(channels) * 2 * (1 + static_cast<std::size_t>(mu_count));
-}
+/// How many tallies a task adds up: reflectance, transmittance, then reflection and transmission at each mu.
+constexpr std::size_t slab_tally_count(int mu_count) { return 2 * (1 + static_cast<std::size_t>(mu_count)); }
 
-/// Adds each path's tallies to sum and their squares to sum_of_squares (slab_tally_count each, in path order of
-/// completion).
-using SlabKernel = void (*)(const SlabTask*, double* sum, double* sum_of_squares);
+/// Adds each path's tallies to the sums of its replicate: path i of the task to those of number i / replicate_paths,
+/// slab_tally_count each. The first path must begin a replicate. Paths of one replicate are spread evenly over what a
+/// path decides first; replicates are independent of each other, so that errors are seen in how they differ.
+using SlabKernel = void (*)(const SlabTask*, double* sums);
 
 extern "C" {
-void slab_baseline(const SlabTask*, double*, double*);
-void slab_avx2(const SlabTask*, double*, double*);
-void slab_avx512(const SlabTask*, double*, double*);
+void slab_baseline(const SlabTask*, double*);
+void slab_avx2(const SlabTask*, double*);
+void slab_avx512(const SlabTask*, double*);
 }
 
 }  // namespace tyndall

@@ -2,7 +2,6 @@
 
 #include "tyndall/medium/free_flight.h"
 #include "tyndall/medium/scatter.h"
-#include "tyndall/render/slab_kernel.h"
 #include "tyndall/sampling/direction.h"
 #include "tyndall/sampling/random_stream.h"
 
@@ -12,13 +11,13 @@ namespace {
 class LayeredSlab {
  public:
   LayeredSlab(const SlabRequest& request, const LoweredMedium& medium)
-      : request_(request),
-        medium_(medium),
-        tally_(slab_tally_count(channel_count, static_cast<int>(request.mu.size()))) {}
+      : request_(request), medium_(medium), tally_(layered_tally_count(request.mu.size())) {}
 
-  const std::vector<double>& trace(std::uint32_t path) {
+  const std::vector<double>& trace(std::uint32_t replicate, std::uint32_t path) {
     std::fill(tally_.begin(), tally_.end(), 0.0);
-    RandomStream random(request_.seed, path, 0x534C4142u);
+    // "SLAB": apart from the numbers of pictures.
+    const std::uint64_t sequence = std::uint64_t{0x534C4142u} << 32 | replicate;
+    RandomStream random(request_.seed, sequence, path, RandomStream::Samples::even);
     const double mu0 = request_.diffuse ? std::sqrt(random.next()) : request_.mu0;
     Ray ray{{0.0, request_.thickness, 0.0}, {std::sqrt((1.0 - mu0) * (1.0 + mu0)), -mu0, 0.0}};
     Spectrum beta = Spectrum::grey(1.0);
@@ -96,14 +95,12 @@ class LayeredSlab {
 }  // namespace
 
 void trace_layered_slab(const SlabRequest& request, const LoweredMedium& medium, std::uint32_t first,
-                        std::uint32_t count, std::vector<double>& sum, std::vector<double>& squares) {
+                        std::uint32_t count, std::uint32_t replicate_paths, double* sums) {
   LayeredSlab slab(request, medium);
-  for (std::uint32_t path = first; path < first + count; ++path) {
-    const std::vector<double>& tally = slab.trace(path);
-    for (std::size_t i = 0; i < tally.size(); ++i) {
-      sum[i] += tally[i];
-      squares[i] += tally[i] * tally[i];
-    }
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::vector<double>& tally = slab.trace((first + i) / replicate_paths, i % replicate_paths);
+    double* const sum = sums + i / replicate_paths * tally.size();
+    for (std::size_t k = 0; k < tally.size(); ++k) sum[k] += tally[k];
   }
 }
 

@@ -52,7 +52,7 @@ TEST(RandomStream, EvenSamplesFillCellsOfEqualArea) {
             for (const auto& s : samples) {
               const int x = static_cast<int>(s[d] * (1 << across)),
                         y = static_cast<int>(s[d + 1] * (1 << (k - across)));
-              ++count[static_cast<std::size_t>(x + (y << across))];
+              ++count[static_cast<std::size_t>(x) + (static_cast<std::size_t>(y) << across)];
             }
             ASSERT_EQ(std::count(count.begin(), count.end(), 1), n) << "dimension " << d << ", 2^" << k << " samples";
           }
@@ -76,7 +76,8 @@ TEST(RandomStream, EvenSamplesAreUniformAndUncorrelated) {
       std::array<int, cells> count{};
       for (const auto& v : values) ++count[static_cast<std::size_t>(v[a] * cells)];
       double chi_square = 0.0;
-      for (int c : count) chi_square += std::pow(c - pixels / cells, 2) / (pixels / cells);
+      constexpr double expected = static_cast<double>(pixels) / cells;
+      for (int c : count) chi_square += std::pow(c - expected, 2) / expected;
       EXPECT_LT(chi_square, 50.0);  // 15 degrees of freedom: 1e-5
       for (std::size_t b = 0; b < a; ++b) {
         double product = 0.0;

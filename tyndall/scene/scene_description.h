@@ -12,6 +12,7 @@
 #include "tyndall/artist/stated_species.h"
 #include "tyndall/document/medium_file.h"
 #include "tyndall/document/spelling.h"
+#include "tyndall/number/demand.h"
 #include "tyndall/number/described.h"
 #include "tyndall/scene/scene.h"
 
@@ -124,16 +125,21 @@ inline std::optional<Objection> objection_to_direction(const Vector& direction) 
   return Objection{"direction", "a direction of no usable length", "three numbers that are not all 0"};
 }
 inline std::optional<Objection> objection_to(const SunLight& sun) { return objection_to_direction(sun.direction); }
+constexpr auto demands_of(const SunLight&) { return std::array{not_all_zero("direction")}; }
 inline std::optional<Objection> objection_to(const SpotLight& spot) {
   if (spot.inner_angle > spot.outer_angle) {
     return Objection{"inner_angle", "an inner angle above the outer angle", "inner_angle <= outer_angle"};
   }
   return objection_to_direction(spot.direction);
 }
+constexpr auto demands_of(const SpotLight&) { return std::array{not_all_zero("direction")}; }
 inline std::optional<Objection> objection_to(const EnvironmentDescription& e) {
   if (e.file && e.radiance) return Objection{"radiance", "both file and radiance", "one of file, radiance"};
   if (!e.file && !e.radiance) return Objection{"", "neither file nor radiance", "one of file, radiance"};
   return std::nullopt;
+}
+constexpr auto demands_of(const EnvironmentDescription&) {
+  return std::array{some_of("file", "radiance"), not_both("file", "radiance")};
 }
 inline std::optional<Objection> objection_to(const Camera& camera) {
   const Vector forward = camera.look_at - camera.position;
@@ -147,6 +153,7 @@ inline std::optional<Objection> objection_to(const Camera& camera) {
   }
   return std::nullopt;
 }
+constexpr auto demands_of(const Camera&) { return std::array{not_all_zero("up")}; }
 inline std::optional<Objection> objection_to(const Film& film) {
   constexpr long long most = 1LL << 27;
   if (static_cast<long long>(film.width) * film.height <= most) return std::nullopt;
@@ -157,5 +164,7 @@ inline std::optional<Objection> objection_to(const IntegratorSettings& integrato
   return Objection{"name", "the integrator " + in_quotes(integrator.name),
                    one_of(integrator.name, {integrator_names.begin(), integrator_names.end()})};
 }
+
+constexpr auto demands_of(const IntegratorSettings&) { return std::array{one_word_of("name", integrator_names)}; }
 
 }  // namespace tyndall
