@@ -30,16 +30,6 @@ inline std::optional<Objection> objection_to(const Mixture<double>& mixture) {
 
 constexpr auto demands_of(const Mixture<double>&) { return std::array{counts("parts", "weight")}; }
 
-/// A box needs an inside.
-inline std::optional<Objection> objection_to(const BoxProfile& box) {
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!(box.min[axis] < box.max[axis])) {
-      return Objection{"max", "a corner that is not above min in every coordinate", "min < max in x, y and z"};
-    }
-  }
-  return std::nullopt;
-}
-
 /// Coefficients as scattering and absorption, or as density (extinction) and albedo: one pair or the other.
 struct StatedSpecies {
   static constexpr std::string_view text = "One kind of particle.";

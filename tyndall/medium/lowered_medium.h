@@ -17,6 +17,8 @@ struct LoweredSpecies {
   double base = 0.0;                            // [m]
   std::vector<Box> boxes;
   std::vector<Sphere> spheres;
+  double low = -infinity, high = infinity;     // heights between which it is [m]
+  std::vector<Profile> formed;                 // profiles whose density varies inside these bounds, exponentials aside
   std::size_t first_lobe = 0, lobe_count = 0;  // in LoweredMedium::lobes
 
   /// Natural logarithm of the density factor at height y, shapes aside.
@@ -39,12 +41,33 @@ inline void add(LoweredMedium& lowered, const Medium& medium) {
       s.base = (s.decay * s.base + rate * e.base) / both;
       s.decay = both;
     }
-    void operator()(const BoxProfile& b) const { s.boxes.push_back(b.shape()); }
-    void operator()(const SphereProfile& b) const { s.spheres.push_back(b.shape()); }
+    void operator()(const LayerProfile& l) const {
+      s.low = std::max(s.low, l.bottom);
+      s.high = std::min(s.high, l.top);
+    }
+    void operator()(const TentProfile& t) const {
+      (*this)(LayerProfile{t.centre - t.half_width, t.centre + t.half_width});
+      s.formed.push_back(t);
+    }
+    void operator()(const BoxProfile& b) const {
+      s.boxes.push_back(b.shape());
+      if (b.feather > 0.0) s.formed.push_back(b);
+    }
+    void operator()(const SphereProfile& b) const {
+      s.spheres.push_back(b.shape());
+      if (b.feather > 0.0) s.formed.push_back(b);
+    }
+    void operator()(const NoiseProfile& n) const {
+      if (n.contrast > 0.0) s.formed.push_back(n);
+    }
   };
   for (const Species& from : medium.species) {
     if (is_zero(from.extinction())) continue;
-    LoweredSpecies s{from.scattering, from.absorption, from.extinction(), 0.0, 0.0, {}, {}, lowered.lobes.size(), 0};
+    LoweredSpecies s;
+    s.scattering = from.scattering;
+    s.absorption = from.absorption;
+    s.extinction = from.extinction();
+    s.first_lobe = lowered.lobes.size();
     for (const Profile& profile : from.profiles) std::visit(Apply{s}, profile);
     for (auto& lobe : merged(lower(from.phase))) lowered.lobes.push_back(lobe);
     s.lobe_count = lowered.lobes.size() - s.first_lobe;

@@ -26,10 +26,16 @@ struct Medium {
   std::vector<Species> species;
 };
 
-/// Product of the species' profiles at a point.
-inline double factor(const Species& species, const Vector& p) {
+/// Product of the species' profiles at a point [m] and time [s].
+inline double factor(const Species& species, const Vector& p, double time = 0.0) {
   double product = 1.0;
-  for (const Profile& profile : species.profiles) product *= factor(profile, p);
+  for (const Profile& profile : species.profiles) product *= factor(profile, p, time);
+  return product;
+}
+/// The same with noise at its mean of 1.
+inline double mean_factor(const Species& species, const Vector& p) {
+  double product = 1.0;
+  for (const Profile& profile : species.profiles) product *= mean_factor(profile, p);
   return product;
 }
 
