@@ -50,7 +50,7 @@ inline std::variant<Medium, Objection> compile(const MediumDials& dials) {
   medium.species.insert(medium.species.end(), others.species.begin() + static_cast<std::ptrdiff_t>(airs),
                         others.species.end());
   for (const Species& s : medium.species) {
-    const double here = factor(s, {});
+    const double here = mean_factor(s, {});
     // Up to 1e30 1/m, products with a scene's lengths and lights stay within double precision.
     if (!(largest(s.extinction()) <= 1e30 && largest(s.extinction() * here) <= 1e30)) {
       return Objection{"", "a species too dense for double precision", "less of it, or a taller profile"};

@@ -25,7 +25,7 @@ inline void order_lobes(std::optional<Conditions>& conditions) {
 
 /// Density at the origin, where media are compared; a species that is elsewhere counts by its stated density.
 inline double weight_at_origin(const std::optional<Profile>& profile) {
-  const double here = profile ? factor(*profile, Vector{}) : 1.0;
+  const double here = profile ? mean_factor(*profile, Vector{}) : 1.0;
   return here > 0.0 && std::isfinite(here) ? here : 1.0;
 }
 

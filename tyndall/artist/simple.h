@@ -59,7 +59,7 @@ inline std::optional<Objection> compile(const Simple& simple, const Spectrum& ot
   HazyMurky k = simple_strengths(simple.w);
   if (simple.hold == Hold::visibility) {
     const std::size_t green = visibility_channel;
-    const double here = simple.profile ? factor(*simple.profile, Vector{}) : 1.0;
+    const double here = simple.profile ? mean_factor(*simple.profile, Vector{}) : 1.0;
     const double veil = simple.veil ? extinction_of(simple.veil->density)[green] : 0.0;
     const double stated = thickness[green], rest = others[green] + here * veil;
     if (!(here > 0.0) || !std::isfinite(here)) {
@@ -90,7 +90,7 @@ inline std::optional<Simple> held(Simple simple, const Spectrum& others) {
   if (simple.hold) return simple;
   const std::size_t green = visibility_channel;
   const Spectrum thickness = extinction_of(simple.thickness);
-  const double here = simple.profile ? factor(*simple.profile, Vector{}) : 1.0;
+  const double here = simple.profile ? mean_factor(*simple.profile, Vector{}) : 1.0;
   const double veil = simple.veil ? extinction_of(simple.veil->density)[green] : 0.0;
   const HazyMurky k = simple_strengths(simple.w);
   const double whole = others[green] + here * (veil + (k.hazy + k.murky) * thickness[green]);

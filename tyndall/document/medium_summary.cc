@@ -19,7 +19,7 @@ MediumSummary summary_of(const Medium& medium, const Vector& point) {
   out.visibility_2 = map(extinction, [](double x) { return visibility_of(x, 0.02); }).value;
   out.mean_cosine = mean_cosine_at(medium, point).value;
   for (const Species& s : medium.species) {
-    const double here = factor(s, point);
+    const double here = mean_factor(s, point);
     SpeciesSummary summary;
     summary.name = s.name;
     summary.law = std::visit([](const auto& law) { return std::string(law.name); }, s.phase);
@@ -38,7 +38,7 @@ std::array<LobeSum<double>, channel_count> mixture_at(const Medium& medium, cons
   const Spectrum total = scattering_at(medium, point);
   std::array<LobeSum<double>, channel_count> out;
   for (const Species& s : medium.species) {
-    const Spectrum scattering = s.scattering * factor(s, point);
+    const Spectrum scattering = s.scattering * mean_factor(s, point);
     for (std::size_t c = 0; c < channel_count; ++c) {
       if (!(scattering[c] > 0.0)) continue;
       for (const auto& part : lower(s.phase)) out[c].push_back({scattering[c] / total[c] * part.weight, part.lobe});

@@ -1,5 +1,5 @@
 #pragma once
-// Boxes and spheres, and where a ray is inside them.
+// Boxes, spheres and layers, and where a ray is inside them.
 #include <optional>
 #include <utility>
 
@@ -15,6 +15,12 @@ struct Box {
 struct Sphere {
   Vector center;
   double radius = 1.0;
+};
+
+/// All between two heights [m].
+struct HeightRange {
+  double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
+  bool bounded() const { return low > -infinity || high < infinity; }
 };
 
 /// Where the ray is inside, clipped to t >= 0; empty (begin = end = 0) when it misses. The slab method; a direction
@@ -47,6 +53,16 @@ inline Interval inside(const Sphere& sphere, const Ray& ray) {
   return t.empty() ? Interval{0.0, 0.0} : t;
 }
 
+/// As for boxes.
+inline Interval inside(const HeightRange& range, const Ray& ray) {
+  const double o = ray.origin.y, d = ray.direction.y;
+  if (d == 0.0) return o >= range.low && o <= range.high ? Interval{0.0, infinity} : Interval{0.0, 0.0};
+  const double low = (range.low - o) / d, high = (range.high - o) / d;
+  const Interval t = intersection({0.0, infinity}, {std::min(low, high), std::max(low, high)});
+  return t.empty() ? Interval{0.0, 0.0} : t;
+}
+
+inline bool contains(const HeightRange& range, const Vector& p) { return p.y >= range.low && p.y <= range.high; }
 inline bool contains(const Box& box, const Vector& p) {
   return p.x >= box.low.x && p.x <= box.high.x && p.y >= box.low.y && p.y <= box.high.y && p.z >= box.low.z &&
          p.z <= box.high.z;

@@ -7,30 +7,46 @@
 namespace tyndall {
 
 /// The t < end at which the optical depth of `channel` reaches depth > 0; infinity if it does not before end.
-/// Closed form for stretches alike and for constant density; else Newton steps kept inside a bracket (relative error
-/// 1e-14).
+/// Closed form for constant density, and for stretches that are alike or follow one another as far as a stretch inverts
+/// itself (Stretch::distance_at); else Newton steps kept inside a bracket (relative error 1e-14).
 inline double distance_at_depth(const std::vector<Stretch>& stretches, std::size_t channel, double depth, double end) {
-  double constant_rate = 0.0, high = infinity, alike_extinction = 0.0;
-  bool constant = true, alike = true;
-  const Stretch* first = nullptr;
+  double constant_rate = 0.0, here = 0.0, before = 0.0, found = infinity;
+  bool constant = true, in_turn = true;
+  const Stretch* last = nullptr;
+  // `last` is the newest place, with `here` extinction of all that are like it; `before` is the depth up to it.
+  const auto settle = [&] {
+    if (found < infinity || here == 0.0) return;
+    found = last->distance_at((depth - before) / here);
+    if (found == infinity) before += here * last->depth_to(infinity);
+    here = 0.0;
+  };
   for (const Stretch& s : stretches) {
     const double extinction = s.species->extinction[channel];
     if (extinction == 0.0) continue;
-    if (first == nullptr) first = &s;
-    alike = alike && s.like(*first);
-    alike_extinction += extinction;
-    constant = constant && s.rate == 0.0 && s.range.begin == 0.0 && s.range.end >= end;
+    constant = constant && s.rate == 0.0 && s.points == 0 && s.range.begin == 0.0 && s.range.end >= end;
     constant_rate += extinction * s.factor;
-    high = std::min(high, s.distance_at(depth / extinction));  // alone it gets there no earlier than all together
+    if (!in_turn) continue;
+    if (last == nullptr || !s.like(*last)) {
+      in_turn = last == nullptr || s.range.begin >= last->range.end;
+      if (last != nullptr && in_turn) settle();
+      last = &s;
+    }
+    here += extinction;
   }
   if (constant) {
     const double t = depth / constant_rate;
     return t < end ? t : infinity;
   }
-  if (first == nullptr) return infinity;
-  if (alike) {
-    const double t = first->distance_at(depth / alike_extinction);
-    return t < end ? t : infinity;
+  if (last == nullptr) return infinity;
+  if (in_turn) {
+    settle();
+    return found < end ? found : infinity;
+  }
+  double high = infinity;
+  for (const Stretch& s : stretches) {
+    // Alone it gets there no earlier than all together.
+    const double extinction = s.species->extinction[channel];
+    if (extinction > 0.0) high = std::min(high, s.distance_at(depth / extinction));
   }
   high = std::min(high, end);
   const auto depth_at = [&](double t) {

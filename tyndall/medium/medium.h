@@ -39,22 +39,22 @@ inline double mean_factor(const Species& species, const Vector& p) {
   return product;
 }
 
-/// Sums over the species at a point [1/m].
+/// Sums over the species at a point [1/m], noise at its mean.
 inline Spectrum scattering_at(const Medium& medium, const Vector& p) {
   Spectrum total;
-  for (const Species& s : medium.species) total += s.scattering * factor(s, p);
+  for (const Species& s : medium.species) total += s.scattering * mean_factor(s, p);
   return total;
 }
 inline Spectrum absorption_at(const Medium& medium, const Vector& p) {
   Spectrum total;
-  for (const Species& s : medium.species) total += s.absorption * factor(s, p);
+  for (const Species& s : medium.species) total += s.absorption * mean_factor(s, p);
   return total;
 }
 
 /// Mean cosine of the mixture per channel at a point, weighted by scattering; NaN where nothing scatters.
 inline Spectrum mean_cosine_at(const Medium& medium, const Vector& p) {
   Spectrum weighted_sum;
-  for (const Species& s : medium.species) weighted_sum += s.scattering * (factor(s, p) * mean_cosine(s.phase));
+  for (const Species& s : medium.species) weighted_sum += s.scattering * (mean_factor(s, p) * mean_cosine(s.phase));
   return weighted_sum / scattering_at(medium, p);
 }
 

@@ -34,7 +34,8 @@ class LampSegment {
       // Neighbours that come and go together (the species of one medium) are one part.
       const bool joined = !parts_.empty() && parts_.back().stretch.rate == s.rate &&
                           parts_.back().stretch.range.begin == s.range.begin &&
-                          parts_.back().stretch.range.end == s.range.end;
+                          parts_.back().stretch.range.end == s.range.end && parts_.back().stretch.points == s.points &&
+                          (s.points == 0 || parts_.back().stretch.species->place == s.species->place);
       if (!joined) parts_.push_back({s, 0.0, 0.0, lobes_.size(), lobes_.size()});
       Part& part = parts_.back();
       const double factor = joined ? std::exp(s.log_factor - part.stretch.log_factor) : 1.0;
@@ -160,7 +161,8 @@ class LampSegment {
     if (!(t >= stretch.range.begin)) return {0.0, 0.0};
     const bool inside = t < stretch.range.end;
     const double s = (inside ? t : stretch.range.end) - stretch.range.begin;
-    if (stretch.rate == 0.0) return {inside ? stretch.factor : 0.0, stretch.factor * s};
+    // A form is taken at its mean.
+    if (stretch.rate == 0.0 || stretch.points > 0) return {inside ? stretch.factor : 0.0, stretch.factor * s};
     const double there = quick_exp(stretch.log_factor - stretch.rate * s);
     // Where the difference is all rounding, the mean of both ends is good.
     const double depth = std::fabs(stretch.rate * s) < 0.05 ? 0.5 * (stretch.factor + there) * s
@@ -194,12 +196,22 @@ class LampSegment {
   }
 
   /// Where the light has paid an optical depth of 14 more than at t, the closest approach: up to there what the segment
-  /// gains in depth the lamp's own path loses; beyond, both grow. No part alone gets there before.
+  /// gains in depth the lamp's own path loses; beyond, both grow. No part alone gets there before, nor do parts that
+  /// follow one another.
   double dim_after(double t) const {
-    double dim = end_;
+    double dim = end_, missing = 14.0, reached = 0.0;
     for (const Part& part : parts_) {
-      if (part.extinction > 0.0)
-        dim = std::min(dim, part.stretch.distance_at(part.stretch.depth_to(t) + 14.0 / part.extinction));
+      if (!(part.extinction > 0.0)) continue;
+      if (part.stretch.range.begin < reached) missing = 14.0;  // of another species
+      reached = part.stretch.range.end;
+      const double spent = part.stretch.depth_to(t),
+                   gained = part.extinction * (part.stretch.depth_to(infinity) - spent);
+      if (gained > missing) {
+        dim = std::min(dim, part.stretch.distance_at(spent + missing / part.extinction));
+        missing = infinity;
+      } else {
+        missing -= gained;
+      }
     }
     return dim;
   }

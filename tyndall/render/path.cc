@@ -10,7 +10,8 @@
 namespace tyndall {
 
 PathContext::PathContext(const Scene& scene, const Geometry& geometry, int max_depth, double follow_through)
-    : prepared_(new Prepared{scene, geometry, lower(scene.medium), PathLights(scene), max_depth, follow_through}) {}
+    : prepared_(new Prepared{scene, geometry, lower(scene.medium, scene.time), PathLights(scene), max_depth,
+                             follow_through}) {}
 PathContext::~PathContext() = default;
 
 namespace {

@@ -42,19 +42,27 @@ bool homogeneous(const RayMedium& along, const Interval& range, const Vector& la
   }
   const Wedge piece = Wedge::toward_lamp(along.ray(), range, lamp);
   const double middle = range.end < infinity ? 0.5 * (range.begin + range.end) : infinity;
+  const Ray& ray = along.ray();
+  const double slope = ray.direction.y;
+  const auto height = [&](double t) { return slope == 0.0 ? ray.origin.y : ray.origin.y + slope * t; };
+  const auto [least, most] = std::minmax({height(range.begin), height(range.end), lamp.y});
+  const auto missed_by_heights = [least = least, most = most](const HeightRange& h) {
+    return most < h.low || least > h.high;
+  };
   for (const LoweredSpecies& s : medium.lowered.species) {
     const auto holds_lamp = [&](const auto& shape) { return contains(shape, lamp); };
     const auto missed = [&](const auto& shape) { return piece.misses(shape); };
     if (std::any_of(s.boxes.begin(), s.boxes.end(), missed)) continue;
     if (std::any_of(s.spheres.begin(), s.spheres.end(), missed)) continue;
-    if (s.decay != 0.0) return false;
-    const bool bounded = !s.boxes.empty() || !s.spheres.empty();
+    if (s.heights.bounded() && missed_by_heights(s.heights)) continue;
+    if (s.decay != 0.0 || !s.form.empty()) return false;
+    const bool bounded = !s.boxes.empty() || !s.spheres.empty() || s.heights.bounded();
     if (bounded) {
       // Shapes are convex: piece and lamp inside means everything between them inside.
       const bool present = std::any_of(along.stretches().begin(), along.stretches().end(), [&](const Stretch& stretch) {
         return stretch.species == &s && stretch.range.begin < middle && middle < stretch.range.end;
       });
-      if (!present || !std::all_of(s.boxes.begin(), s.boxes.end(), holds_lamp) ||
+      if (!present || !holds_lamp(s.heights) || !std::all_of(s.boxes.begin(), s.boxes.end(), holds_lamp) ||
           !std::all_of(s.spheres.begin(), s.spheres.end(), holds_lamp)) {
         return false;
       }

@@ -26,7 +26,7 @@ void sort_unique(std::vector<double>& x) {
 
 }  // namespace
 
-SingleMedium::SingleMedium(const Medium& from) : lowered(lower(from)) {
+SingleMedium::SingleMedium(const Medium& from, double time) : lowered(lower(from, time)) {
   lobes.resize(lowered.lobes.size());
   kind.resize(lowered.lobes.size());
   bool constant = true, alike = true, unbounded = true;
@@ -39,8 +39,8 @@ SingleMedium::SingleMedium(const Medium& from) : lowered(lower(from)) {
       if (k == kinds.size()) kinds.push_back(lobe.lobe);
       kind[i] = k;
     }
-    constant = constant && s.decay == 0.0 && s.spheres.empty();
-    unbounded = unbounded && s.boxes.empty() && s.spheres.empty();
+    constant = constant && s.decay == 0.0 && s.spheres.empty() && s.form.empty();
+    unbounded = unbounded && s.boxes.empty() && s.spheres.empty() && !s.heights.bounded() && s.form.empty();
     alike = alike && s.decay == lowered.species.front().decay;
   }
   shaped = !unbounded;
@@ -74,7 +74,7 @@ void RayMedium::set(const SingleMedium& medium, const Ray& ray, double end) {
   for (const Stretch& s : stretches_) {
     if (s.range.begin > 0.0) borders_.push_back(s.range.begin);
     borders_.push_back(s.range.end);
-    if (s.rate == 0.0) continue;
+    if (s.rate == 0.0 || s.points > 0) continue;  // pieces of a form are short enough
     // 16 points follow an exponential of an exponential over 5 scale lengths; further than 45 of them from its dense
     // end nothing is left of it.
     const double step = 5.0 / std::fabs(s.rate), top = std::min(s.range.end, reach_);

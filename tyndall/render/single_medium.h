@@ -11,7 +11,8 @@ namespace tyndall {
 
 /// A medium's lobes as airlight wants them, and what kind of medium it is.
 struct SingleMedium {
-  explicit SingleMedium(const Medium& from);
+  /// The medium as it is at a time [s].
+  explicit SingleMedium(const Medium& from, double time = 0.0);
   SingleMedium(const SingleMedium&) = delete;
   SingleMedium& operator=(const SingleMedium&) = delete;
 
@@ -25,9 +26,9 @@ struct SingleMedium {
   std::vector<std::size_t> kind;      // parallel: which of the distinct lobes it is
   std::vector<Lobe<double>> kinds;    // the distinct lobes
   /// Along any ray, the optical depth of a parallel beam's way to it is linear in the ray's own column of medium,
-  /// piece by piece: constant densities in boxes, or exponentials of one scale height without shapes.
+  /// piece by piece: constant densities in boxes or layers, or exponentials of one scale height without shapes.
   bool linear = false;
-  /// Some species fills a box or a sphere only.
+  /// Some species is not everywhere, or has a form.
   bool shaped = false;
 };
 

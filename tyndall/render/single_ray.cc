@@ -20,7 +20,7 @@ SingleContext::Prepared::Prepared(const Scene& scene_, const Geometry& geometry_
     : scene(scene_),
       geometry(geometry_),
       settings(settings_),
-      medium(scene.medium),
+      medium(scene.medium, scene.time),
       shadows(scene),
       lamps(lamps_of(scene)),
       glow(scene),

@@ -45,7 +45,7 @@ bool alike(const LoweredMedium& medium, std::size_t a, std::size_t b) {
 
 bool same_everywhere(const LoweredMedium& medium) {
   return std::all_of(medium.species.begin(), medium.species.end(),
-                     [](const LoweredSpecies& s) { return s.decay == 0.0; });
+                     [](const LoweredSpecies& s) { return s.is_constant(); });
 }
 
 /// Transmittance of the unscattered light; for diffuse light 2 int_0^1 T(mu) mu dmu by the midpoint rule in u = mu^2,
@@ -130,8 +130,10 @@ std::vector<MeanAndError> replicated(const SlabRequest& request, std::size_t tal
 std::string slab_objection(const SlabRequest& request) {
   const LoweredMedium medium = lower(request.medium);
   for (const LoweredSpecies& s : medium.species) {
-    if (!s.boxes.empty() || !s.spheres.empty())
-      return "a slab's medium may vary with height only, not in boxes or spheres";
+    if (!s.is_layered()) return "a slab's medium may vary with height only, not in boxes, spheres or noise";
+    if ((s.heights.bounded() || !s.form.empty()) && std::isinf(request.thickness)) {
+      return "a medium that ends at some height has no infinite slab: give a thickness";
+    }
     if (s.decay != 0.0 && std::isinf(request.thickness)) {
       return "a medium that thickens without end downward has no infinite slab: give a thickness";
     }

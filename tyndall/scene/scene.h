@@ -99,6 +99,7 @@ struct Scene {
   Camera camera;
   Film film;
   double fps = 24.0;
+  double time = 0.0;  // [s] of the picture: what the wind has done to noise
   IntegratorSettings integrator;
   std::vector<std::string> warnings;  // what the files ask for that is not done, one sentence each
 };
