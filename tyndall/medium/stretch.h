@@ -137,6 +137,8 @@ struct Stretch {
 
 /// Beyond this optical depth noise is not followed.
 inline constexpr double opaque_depth = 100.0;
+/// Beyond so many stretches on one ray (300 volumes of noise) the noise of further species is not followed: 19 MB.
+inline constexpr std::size_t most_noisy_stretches = 1u << 17;
 
 /// Appends the stretches of species that share profiles with a form, on the part of the ray where they are. Pieces with
 /// an exponential are no longer than 4 of its lengths, down to e^-45 of its thickest end, where 16 points and a
@@ -159,7 +161,7 @@ inline void add_formed_stretches(std::span<const LoweredSpecies> together, const
     fine = {std::max(underflows, range.end - 45.0 / -rate), range.end};
     if (!(range.end < infinity)) fine.begin = underflows;
   }
-  FormRay along{ray, range.begin};
+  FormRay along{ray, out.size() < most_noisy_stretches ? range.begin : -infinity};
   double depth = 0.0;
   for (double begin = range.begin, end; begin < range.end; begin = end) {
     end = std::min(range.end, s.form.next_break(along, begin));

@@ -70,7 +70,7 @@ bool has_light_outside(const Scene& scene) { return !scene.suns.empty() || scene
 bool is_endless(const Medium& medium) {
   return std::ranges::any_of(medium.species, [](const Species& s) {
     return !is_zero(s.extinction()) && std::ranges::all_of(s.profiles, [](const Profile& profile) {
-      return std::holds_alternative<ConstantProfile>(profile);
+      return std::holds_alternative<ConstantProfile>(profile) || std::holds_alternative<NoiseProfile>(profile);
     });
   });
 }
