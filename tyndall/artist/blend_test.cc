@@ -53,12 +53,26 @@ std::pair<MediumDials, MediumDials> like_pair(Dice& dice) {
     TwoLobes other = dice.two_lobes();
     other.profile = l->profile;
     b.conditions = other;
+  } else if (auto* e = a.conditions ? std::get_if<TwoLobesExplicit>(&*a.conditions) : nullptr) {
+    TwoLobesExplicit other = dice.two_lobes_explicit();
+    other.profile = e->profile;
+    b.conditions = other;
+  } else if (auto* m = a.conditions ? std::get_if<Measured>(&*a.conditions) : nullptr) {
+    Measured other = dice.measured();
+    while (other.air != m->air || objection_to(other)) other = dice.measured();
+    other.albedo = m->albedo;
+    other.angstrom_exponent = m->angstrom_exponent;
+    other.mean_cosine = m->mean_cosine;
+    other.profile = m->profile;
+    b.conditions = other;
   }
   a.species.push_back(dice.species("soot"));
   b.species.push_back(dice.species("soot"));
   b.species.back().phase = a.species.back().phase;
   b.species.back().profile = a.species.back().profile;
   if (dice.coin()) b.species.push_back(dice.species("dust"));
+  Dice::make_possible(a);
+  Dice::make_possible(b);
   return {a, b};
 }
 
@@ -91,6 +105,24 @@ TEST(Interpolate, RefusesUnlikeMediaAndPointsToMix) {
     ASSERT_TRUE(std::holds_alternative<Objection>(blend));
     EXPECT_NE(std::get<Objection>(blend).expected.find("mix"), std::string::npos);
   }
+}
+
+TEST(Interpolate, RefusesMeasuredAirOfDifferentKinds) {
+  Measured fog, dust;
+  fog.air = Particles::fog;
+  dust.air = Particles::dust;
+  fog.visibility = dust.visibility = 500.0;
+  const Blend blend = interpolate({std::nullopt, fog, {}}, {std::nullopt, dust, {}}, 0.5);
+  ASSERT_TRUE(std::holds_alternative<Objection>(blend));
+  EXPECT_EQ(std::get<Objection>(blend).field, "conditions/air");
+  EXPECT_NE(std::get<Objection>(blend).expected.find("mix"), std::string::npos);
+}
+
+TEST(Interpolate, FadesAnOzoneLayerIn) {
+  Background with, without;
+  with.ozone = 300.0;
+  const MediumDials half = dials_of(interpolate({without, {}, {}}, {with, {}, {}}, 0.5));
+  EXPECT_EQ(half.background->ozone, 150.0);
 }
 
 TEST(Interpolate, WhatIsMissingCountsAsWithoutDensity) {
@@ -237,6 +269,27 @@ TEST(Morph, PutsLobesInOrderFirst) {
   EXPECT_NEAR(half.species[0].scattering[0], 0.75e-3, 1e-17);
 }
 
+TEST(Morph, PutsExplicitLobesInOrderFirst) {
+  const ExplicitLobe ahead{0.8, PlainExtinction{Spectrum::grey(1e-3)}, Spectrum::grey(1.0)};
+  const ExplicitLobe back{-0.3, PlainExtinction{Spectrum::grey(2e-3)}, Spectrum::grey(1.0)};
+  const TwoLobesExplicit a{ahead, back, {}, {}}, swapped{back, ahead, {}, {}};
+  const Medium half = medium_of(dials_of(morph({std::nullopt, a, {}}, {std::nullopt, swapped, {}}, 0.5)));
+  ASSERT_EQ(half.species.size(), 2u);
+  EXPECT_DOUBLE_EQ(mean_cosine(half.species[0].phase), 0.8);
+  EXPECT_NEAR(half.species[1].scattering[0], 2e-3, 1e-17);
+}
+
+TEST(Morph, WhatIsNotAtTheOriginMorphsByItself) {
+  Background air;
+  air.ozone = 100.0;
+  Background other = air;
+  other.ozone = 400.0;
+  const Medium half = medium_of(dials_of(morph({air, {}, {}}, {other, {}, {}}, 0.5)));
+  ASSERT_EQ(half.species.size(), 2u);
+  EXPECT_NEAR(half.species[0].scattering[1], note_air[1], 1e-18);
+  EXPECT_NEAR(half.species[1].absorption[1], ozone_absorption(550.0, 200.0), 1e-18);
+}
+
 TEST(Morph, LeavesAnUnchangedBackgroundAlone) {
   const Simple thin{1.0, PlainExtinction{Spectrum::grey(1e-4)}, Spectrum::grey(1.0), {}, {}, {}};
   Simple thick = thin;
@@ -252,7 +305,7 @@ TEST(Blend, CommutesWithAChangeOfUnits) {
     const auto [a, b] = like_pair(dice);
     const double t = dice.between(0.0, 1.0), unit = 0.01;
     const Medium in_si = medium_of(dials_of(interpolate(a, b, t)));
-    const MediumDials scaled = dials_of(interpolate(in_metres(a, 1.0 / unit), in_metres(b, 1.0 / unit), t));
+    const MediumDials scaled = dials_of(interpolate(in_metres(a, 1.0 / unit), in_metres(b, 1.0 / unit), t, unit));
     const Spectrum expected = extinction_at(in_si, {});
     expect_near(extinction_at(medium_of(in_metres(scaled, unit)), {}), expected, 1e-12, expected);
   }

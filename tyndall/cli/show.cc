@@ -5,6 +5,7 @@
 
 #include "tyndall/cli/commands.h"
 #include "tyndall/cli/table.h"
+#include "tyndall/cli/warnings.h"
 #include "tyndall/document/medium_file.h"
 #include "tyndall/document/medium_summary.h"
 #include "tyndall/document/spelling.h"
@@ -12,25 +13,72 @@
 namespace tyndall {
 namespace {
 
+struct ProfileWords {
+  std::string operator()(const ConstantProfile&) const { return "constant"; }
+  std::string operator()(const ExponentialProfile& e) const {
+    return "exponential in height, by e every " + length_text(e.scale_height);
+  }
+  std::string operator()(const LayerProfile& l) const {
+    return "layer from " + length_text(l.bottom) + " to " + length_text(l.top);
+  }
+  std::string operator()(const TentProfile& t) const {
+    return "tent around " + length_text(t.centre) + ", \u00B1 " + length_text(t.half_width);
+  }
+  std::string operator()(const SphereProfile& s) const { return "sphere of radius " + length_text(s.radius); }
+  std::string operator()(const BoxProfile& b) const {
+    const Vector size = b.max - b.min;
+    return "box of " + length_text(size.x) + " x " + length_text(size.y) + " x " + length_text(size.z);
+  }
+  /// Profiles that say nothing here yet.
+  template <class Other>
+  std::string operator()(const Other&) const {
+    return std::string(Other::name);
+  }
+};
+
 std::string profile_text(const std::vector<Profile>& profiles) {
   std::string text;
   for (const Profile& profile : profiles) {
-    text += text.empty() ? "" : ", ";
-    text += std::visit([](const auto& p) { return std::string(p.name); }, profile);
-    if (const auto* height = std::get_if<ExponentialProfile>(&profile)) {
-      text += " in height, by e every " + length_text(height->scale_height);
-    }
+    text += (text.empty() ? "" : ", ") + std::visit(ProfileWords{}, profile);
   }
   return text;
 }
 
-void print_table(const MediumSummary& medium) {
+/// The first row of a table of channels.
+std::vector<std::string> heading(const std::string& what, const MediumFile& file) {
+  if (std::holds_alternative<ChannelSpace>(channels_of(file))) return {what, "red", "green", "blue"};
+  const Spectrum nm = wavelengths_of(file.channels);
+  return {what, value_text(nm[0]) + " nm", value_text(nm[1]) + " nm", value_text(nm[2]) + " nm"};
+}
+
+/// A row of a table: what, and one text per channel.
+void add_row(Table& table, const std::string& name, const Spectrum& values, std::string (*text_of)(double)) {
+  table.add({name, text_of(values[0]), text_of(values[1]), text_of(values[2])});
+}
+
+/// The extinction in the other ways in which people and programs state it.
+void print_densities(const Spectrum& extinction, const MediumFile& file) {
+  Table table;
+  const double distance = telling_distance(extinction);
+  table.add(heading("the same extinction, said otherwise", file));
+  add_row(table, "half of the light is gone after", Spectrum::grey(std::log(2.0)) / extinction, length_text);
+  add_row(table, "90 % of the light is gone after", Spectrum::grey(std::log(10.0)) / extinction, length_text);
+  add_row(table, "transmittance of " + length_text(distance), exp(-distance * extinction), value_text);
+  add_row(table, "optical depth of " + length_text(distance), distance * extinction, value_text);
+  add_row(table, "mass, if a gram blocks 1 m^2 [g/m^3]", extinction, value_text);
+  if (const double unit = file.meters_per_unit; unit != 1.0) {
+    add_row(table, "extinction per unit of " + length_text(unit), extinction * unit, value_text);
+  }
+  std::cout << '\n' << table.text();
+}
+
+void print_table(const MediumSummary& medium, const MediumFile& file) {
   std::cout << (medium.name.empty() ? "(no name)" : printable(medium.name)) << "\n\n";
   Table table;
-  const auto row = [&](const std::string& name, const ChannelList& values, auto text_of) {
-    table.add({name, text_of(values[0]), text_of(values[1]), text_of(values[2])});
+  const auto row = [&](const std::string& name, const ChannelList& values, std::string (*text_of)(double)) {
+    add_row(table, name, Spectrum{values}, text_of);
   };
-  table.add({"at the origin", "red", "green", "blue"});
+  table.add(heading("at the origin", file));
   row("visibility, 5 % contrast", medium.visibility_5, length_text);
   row("visibility, 2 % contrast", medium.visibility_2, length_text);
   row("mean free path", medium.mean_free_path, length_text);
@@ -40,6 +88,7 @@ void print_table(const MediumSummary& medium) {
   row("scattering [1/m]", medium.scattering, value_text);
   row("absorption [1/m]", medium.absorption, value_text);
   std::cout << table.text();
+  if (largest(Spectrum{medium.extinction}) > 0.0) print_densities(Spectrum{medium.extinction}, file);
   if (medium.exaggeration != 1.0) {
     std::cout << "\nThe background is exaggerated by a factor of " << value_text(medium.exaggeration) << ".\n";
   }
@@ -53,6 +102,9 @@ void print_table(const MediumSummary& medium) {
     std::cout << "\nNothing of it is at the origin; its species have their own places.\n";
   }
   std::cout << '\n' << (medium.species.empty() ? "Made of nothing: a vacuum.\n" : species.text());
+  for (std::size_t i = 0; i < medium.sources.size(); ++i) {
+    std::cout << (i == 0 ? "\n" : "") << "  " << medium.sources[i] << ".\n";
+  }
 }
 
 struct ShowOptions {
@@ -63,12 +115,16 @@ struct ShowOptions {
 void show(const ShowOptions& options) {
   const MediumFile file = read_medium_file(options.medium);
   MediumSummary summary = summary_of(compile(file, options.medium));
+  const MediumDials dials = dials_in_metres(file);
   summary.name = file.name;
   summary.exaggeration = file.background ? file.background->exaggeration : 1.0;
+  summary.sources = statements_on(dials);
+  summary.warnings = remarks_on(dials);
+  warn(file, options.medium);
   if (options.json) {
     std::cout << pretty(written(summary));
   } else {
-    print_table(summary);
+    print_table(summary, file);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <set>
 
 #include "tests/shared_folder.h"
 #include "tyndall/artist/random_dials_test.h"
@@ -192,9 +193,9 @@ TEST(MediumFile, WrittenAndReadAgainIsTheSameFile) {
   Dice dice(21);
   for (int i = 0; i < 3000; ++i) {
     MediumFile file;
-    static_cast<MediumDials&>(file) = dice.medium();
-    file.name = i % 2 == 0 ? "plain" : "quote \" newline \n */ </script> \xE9\x9C\xA7 \\ \x01";
     file.meters_per_unit = dice.magnitude(1e-3, 1e3);
+    static_cast<MediumDials&>(file) = in_metres(dice.medium(), 1.0 / file.meters_per_unit);
+    file.name = i % 2 == 0 ? "plain" : "quote \" newline \n */ </script> \xE9\x9C\xA7 \\ \x01";
     if (dice.coin()) file.channels = ChannelWavelengths{{611.0, 549.0, 464.0}};
     const std::string text = medium_to_json(file);
     const MediumFile again = medium_from_json(text, "t");
@@ -203,6 +204,31 @@ TEST(MediumFile, WrittenAndReadAgainIsTheSameFile) {
     ASSERT_EQ(text, medium_to_json(again));
     expect_same_medium(compile(file), compile(again), 0.0);
   }
+}
+
+TEST(MediumFile, EveryModelDensityAndKindOfAirIsReadBackAsWritten) {
+  // Walks the lists; a model that the random media do not make would be found here.
+  Dice dice(24);
+  std::set<std::size_t> models, densities, airs, kinds;
+  for (int i = 0; i < 3000; ++i) {
+    MediumFile file;
+    static_cast<MediumDials&>(file) = dice.medium();
+    if (file.conditions) models.insert(file.conditions->index());
+    for (const StatedSpecies& s : file.species) {
+      if (s.density) densities.insert(s.density->index());
+    }
+    if (file.background) airs.insert(static_cast<std::size_t>(file.background->air));
+    if (const auto* m = file.conditions ? std::get_if<Measured>(&*file.conditions) : nullptr) {
+      kinds.insert(static_cast<std::size_t>(m->air));
+    }
+    const MediumFile again = medium_from_json(medium_to_json(file), "t");
+    ASSERT_TRUE(same(file, again));
+    expect_same_medium(compile(file), compile(again), 0.0);
+  }
+  EXPECT_EQ(models.size(), std::variant_size_v<Conditions>);
+  EXPECT_EQ(densities.size(), std::variant_size_v<Density>);
+  EXPECT_EQ(airs.size(), words_of(Air{}).size());
+  EXPECT_EQ(kinds.size(), words_of(Particles{}).size());
 }
 
 TEST(MediumFile, TheSameMediumInAnotherUnitIsTheSameMedium) {
@@ -397,6 +423,26 @@ TEST(Acceptance, TheNotesWAgrees) {
       EXPECT_NEAR(summary.mean_cosine[1], item.at("g_eff").get<double>(), 1e-14);
     }
   }
+}
+
+TEST(Acceptance, StandardAirAgrees) {
+  TYNDALL_NEEDS_SHARED_FILE(truth, "acceptance/public.json");
+  const Json all = Json::parse(std::ifstream(truth));
+  int checked = 0;
+  for (const Json& item : all.at("rayleigh_air").at("items")) {
+    if (!item.contains("lambda_um")) continue;
+    const double nm = 1e3 * item.at("lambda_um").get<double>();
+    const auto near = [](double got, double expected) { EXPECT_NEAR(got, expected, 1e-7 * expected); };
+    near(air_refractivity(nm), item.at("n-1"));
+    near(king_factor(nm), item.at("king"));
+    near(standard_air_scattering(nm), item.at("beta_m-1"));
+    MediumFile file;
+    file.background.emplace().air = Air::standard;
+    file.channels = ChannelWavelengths{{nm, nm, nm}};
+    near(summary_of(compile(file)).scattering[1], item.at("beta_m-1"));
+    ++checked;
+  }
+  EXPECT_GE(checked, 5);
 }
 
 TEST(Acceptance, VisibilityAgrees) {
