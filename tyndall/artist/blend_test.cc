@@ -53,12 +53,26 @@ std::pair<MediumDials, MediumDials> like_pair(Dice& dice) {
     TwoLobes other = dice.two_lobes();
     other.profile = l->profile;
     b.conditions = other;
+  } else if (auto* e = a.conditions ? std::get_if<TwoLobesExplicit>(&*a.conditions) : nullptr) {
+    TwoLobesExplicit other = dice.two_lobes_explicit();
+    other.profile = e->profile;
+    b.conditions = other;
+  } else if (auto* m = a.conditions ? std::get_if<Measured>(&*a.conditions) : nullptr) {
+    Measured other = dice.measured();
+    while (other.air != m->air || objection_to(other)) other = dice.measured();
+    other.albedo = m->albedo;
+    other.angstrom_exponent = m->angstrom_exponent;
+    other.mean_cosine = m->mean_cosine;
+    other.profile = m->profile;
+    b.conditions = other;
   }
   a.species.push_back(dice.species("soot"));
   b.species.push_back(dice.species("soot"));
   b.species.back().phase = a.species.back().phase;
   b.species.back().profile = a.species.back().profile;
   if (dice.coin()) b.species.push_back(dice.species("dust"));
+  Dice::make_possible(a);
+  Dice::make_possible(b);
   return {a, b};
 }
 
@@ -252,7 +266,7 @@ TEST(Blend, CommutesWithAChangeOfUnits) {
     const auto [a, b] = like_pair(dice);
     const double t = dice.between(0.0, 1.0), unit = 0.01;
     const Medium in_si = medium_of(dials_of(interpolate(a, b, t)));
-    const MediumDials scaled = dials_of(interpolate(in_metres(a, 1.0 / unit), in_metres(b, 1.0 / unit), t));
+    const MediumDials scaled = dials_of(interpolate(in_metres(a, 1.0 / unit), in_metres(b, 1.0 / unit), t, unit));
     const Spectrum expected = extinction_at(in_si, {});
     expect_near(extinction_at(medium_of(in_metres(scaled, unit)), {}), expected, 1e-12, expected);
   }

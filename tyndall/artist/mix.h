@@ -11,8 +11,7 @@ namespace blending {
 inline std::variant<std::vector<StatedSpecies>, Objection> as_species(const MediumDials& dials, bool without_air) {
   const auto compiled = compile(dials);
   if (const auto* objection = std::get_if<Objection>(&compiled)) return *objection;
-  std::vector<Species> air;
-  if (without_air && dials.background) compile(*dials.background, air);
+  const std::vector<Species> air = without_air ? air_of(dials) : std::vector<Species>{};
   std::vector<StatedSpecies> out;
   const auto& all = std::get<Medium>(compiled).species;
   for (std::size_t i = air.size(); i < all.size(); ++i) {  // air comes first
@@ -30,7 +29,7 @@ inline std::variant<std::vector<StatedSpecies>, Objection> as_species(const Medi
 /// Both backgrounds aligned, if they differ in exaggeration only: then the dial can say what both are together.
 inline bool one_air(std::optional<Background>& a, std::optional<Background>& b) {
   auto x = a, y = b;
-  if (align(x, y) || !alike(x, y) || (x && !same(x->profile, y->profile))) return false;
+  if (align(x, y) || !alike(x, y) || (x && !differ_in_exaggeration_only(*x, *y))) return false;
   a = std::move(x);
   b = std::move(y);
   return true;
@@ -45,6 +44,7 @@ inline Blend mix(MediumDials a, MediumDials b, double t) {
   if (t == 0.0) return a;
   if (t == 1.0) return b;
   MediumDials from = a, to = b, out;
+  out.channels = a.channels;
   const bool one_air = blending::one_air(a.background, b.background);
   if (one_air) out.background = between_dials(a.background, b.background, t);
   for (const auto& [dials, share] : {std::pair{&from, 1.0 - t}, std::pair{&to, t}}) {

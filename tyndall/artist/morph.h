@@ -21,6 +21,9 @@ inline void order_lobes(std::optional<Conditions>& conditions) {
     std::swap(lobes->g1, lobes->g2);
     lobes->r = 1.0 - lobes->r;
   }
+  if (auto* lobes = std::get_if<TwoLobesExplicit>(&*conditions); lobes != nullptr && lobes->first.g < lobes->second.g) {
+    std::swap(lobes->first, lobes->second);
+  }
 }
 
 /// Density at the origin, where media are compared; a species that is elsewhere counts by its stated density.
@@ -29,18 +32,27 @@ inline double weight_at_origin(const std::optional<Profile>& profile) {
   return here > 0.0 && std::isfinite(here) ? here : 1.0;
 }
 
+/// Whether a profile has nothing at the origin.
+inline bool is_elsewhere(const std::optional<Profile>& profile) {
+  return profile && !(factor(*profile, Vector{}) > 0.0);
+}
+
 inline Spectrum extinction_of(const StatedSpecies& s) { return *s.scattering + *s.absorption; }
 
-inline Spectrum total_of(const std::vector<StatedSpecies>& species) {
+/// Extinction at the origin of those species that `counts` names by their index.
+template <class Counts>
+Spectrum total_of(const std::vector<StatedSpecies>& species, const Counts& counts) {
   Spectrum total;
-  for (const StatedSpecies& s : species) total += weight_at_origin(s.profile) * extinction_of(s);
+  for (std::size_t i = 0; i < species.size(); ++i) {
+    if (counts(i)) total += weight_at_origin(species[i].profile) * extinction_of(species[i]);
+  }
   return total;
 }
 
-inline Spectrum total_of(const std::optional<Background>& background) {
-  std::vector<Species> air;
-  if (background) compile(*background, air);
-  return air.empty() ? Spectrum{} : weight_at_origin(background->profile) * air.front().extinction();
+inline Spectrum air_at_origin(const MediumDials& dials) {
+  Spectrum total;
+  for (const Species& s : air_of(dials)) total += factor(s, Vector{}) * s.extinction();
+  return total;
 }
 
 /// Pairs what corresponds (name, kind of law and of profile); what does not gets an empty partner.
@@ -69,55 +81,66 @@ inline void pair_up(std::vector<StatedSpecies>& a, std::vector<StatedSpecies>& b
 }  // namespace blending
 
 /// At t in [0, 1] between a and b: the logarithm of the extinction at the origin is linear in t in every channel, the
-/// shares that species have in it, their laws' parameters and their profiles go straight from a's to b's. Air of one
-/// kind and profile stays background, its exaggeration morphed like an extinction. Where a channel is clear at one end,
-/// which has no logarithm, its coefficients go straight. Dials in SI; exactly a at 0 and b at 1.
+/// shares that species have in it, their laws' parameters and their profiles go straight from a's to b's. What is not
+/// at the origin (an ozone layer, a ball of smoke) is morphed so by itself. Air of one kind stays background, its
+/// exaggeration morphed like an extinction. Where a channel is clear at one end, which has no logarithm, its
+/// coefficients go straight. Dials in SI; exactly a at 0 and b at 1.
 inline Blend morph(MediumDials a, MediumDials b, double t) {
   if (t == 0.0) return a;
   if (t == 1.0) return b;
   blending::order_lobes(a.conditions);
   blending::order_lobes(b.conditions);
-  const Spectrum air_a = blending::total_of(a.background), air_b = blending::total_of(b.background);
-  const bool one_air = !is_zero(air_a) && !is_zero(air_b) && a.background->air == b.background->air &&
-                       same(a.background->profile, b.background->profile);
+  const Spectrum air_a = blending::air_at_origin(a), air_b = blending::air_at_origin(b);
+  const bool one_air = !is_zero(air_a) && !is_zero(air_b) && differ_in_exaggeration_only(*a.background, *b.background);
   auto from = blending::as_species(a, one_air), to = blending::as_species(b, one_air);
   for (const auto* side : {&from, &to}) {
     if (const auto* objection = std::get_if<Objection>(side)) return *objection;
   }
   auto &left = std::get<0>(from), &right = std::get<0>(to);
   blending::pair_up(left, right);
-  const Spectrum rest_a = blending::total_of(left), rest_b = blending::total_of(right);
 
   MediumDials out;
+  out.channels = a.channels;
   Spectrum air;
   if (one_air) {
-    out.background = between_dials(a.background, b.background, t);
+    out.background = a.background;
     out.background->exaggeration =
         blending::between_logarithms(a.background->exaggeration, b.background->exaggeration, t);
-    air = blending::total_of(out.background);
+    air = blending::air_at_origin(out);
   }
-  for (std::size_t i = 0; i < left.size(); ++i) {
-    StatedSpecies s = left[i];
-    s.phase = between_dials(left[i].phase, right[i].phase, t);
-    s.profile = between_dials(left[i].profile, right[i].profile, t);
-    for (std::size_t c = 0; c < channel_count; ++c) {
-      const bool shares = rest_a[c] > 0.0 && rest_b[c] > 0.0;
-      const double by_a = shares ? rest_a[c] : 1.0, by_b = shares ? rest_b[c] : 1.0;
-      (*s.scattering)[c] = between((*left[i].scattering)[c] / by_a, (*right[i].scattering)[c] / by_b, t);
-      (*s.absorption)[c] = between((*left[i].absorption)[c] / by_a, (*right[i].absorption)[c] / by_b, t);
+  out.species = left;
+  for (const bool elsewhere : {false, true}) {
+    const auto counts = [&](std::size_t i) {
+      return elsewhere == (blending::is_elsewhere(left[i].profile) && blending::is_elsewhere(right[i].profile));
+    };
+    const Spectrum rest_a = blending::total_of(left, counts), rest_b = blending::total_of(right, counts);
+    for (std::size_t i = 0; i < left.size(); ++i) {
+      if (!counts(i)) continue;
+      StatedSpecies& s = out.species[i];
+      s.phase = between_dials(left[i].phase, right[i].phase, t);
+      s.profile = between_dials(left[i].profile, right[i].profile, t);
+      for (std::size_t c = 0; c < channel_count; ++c) {
+        const bool shares = rest_a[c] > 0.0 && rest_b[c] > 0.0;
+        const double by_a = shares ? rest_a[c] : 1.0, by_b = shares ? rest_b[c] : 1.0;
+        (*s.scattering)[c] = between((*left[i].scattering)[c] / by_a, (*right[i].scattering)[c] / by_b, t);
+        (*s.absorption)[c] = between((*left[i].absorption)[c] / by_a, (*right[i].absorption)[c] / by_b, t);
+      }
     }
-    out.species.push_back(std::move(s));
-  }
-  // Bring the sum to where the logarithm puts it. With air that is morphed by itself the rest is never negative: a
-  // sum of geometric means is at most the geometric mean of the sums (Hoelder).
-  const Spectrum composed = blending::total_of(out.species);
-  const Spectrum whole_a = rest_a + (one_air ? air_a : Spectrum{}), whole_b = rest_b + (one_air ? air_b : Spectrum{});
-  for (std::size_t c = 0; c < channel_count; ++c) {
-    if (!(whole_a[c] > 0.0) || !(whole_b[c] > 0.0) || !(composed[c] > 0.0)) continue;
-    const double target = std::max(0.0, blending::between_logarithms(whole_a[c], whole_b[c], t) - air[c]);
-    for (StatedSpecies& s : out.species) {
-      (*s.scattering)[c] *= target / composed[c];
-      (*s.absorption)[c] *= target / composed[c];
+    // Bring the sum to where the logarithm puts it. With air that is morphed by itself the rest is never negative: a
+    // sum of geometric means is at most the geometric mean of the sums (Hoelder).
+    const Spectrum composed = blending::total_of(out.species, counts);
+    const bool with_air = one_air && !elsewhere;
+    const Spectrum whole_a = rest_a + (with_air ? air_a : Spectrum{}),
+                   whole_b = rest_b + (with_air ? air_b : Spectrum{});
+    for (std::size_t c = 0; c < channel_count; ++c) {
+      if (!(whole_a[c] > 0.0) || !(whole_b[c] > 0.0) || !(composed[c] > 0.0)) continue;
+      const double whole = blending::between_logarithms(whole_a[c], whole_b[c], t);
+      const double target = std::max(0.0, whole - (with_air ? air[c] : 0.0));
+      for (std::size_t i = 0; i < left.size(); ++i) {
+        if (!counts(i)) continue;
+        (*out.species[i].scattering)[c] *= target / composed[c];
+        (*out.species[i].absorption)[c] *= target / composed[c];
+      }
     }
   }
   return out;

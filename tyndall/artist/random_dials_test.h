@@ -1,5 +1,6 @@
 #pragma once
 // Random media for property tests: everything the dials allow, over the ranges that people use and a little beyond.
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <string>
@@ -28,9 +29,18 @@ class Dice {
 
   /// Extinction between `low` and `high` [1/m], in any form.
   Density density(double low, double high) {
-    switch (below(4)) {
+    const double far = magnitude(1.0, 1e3);
+    switch (below(7)) {
       case 0:
         return PlainExtinction{spectrum(low, high)};
+      case 3:
+        return Transmittance{exp(-far * spectrum(low, std::min(high, 600.0 / far))), far};
+      case 4:
+        return OpticalDepth{far * spectrum(low, high), far};
+      case 5: {
+        const double grams = magnitude(1e-6, 1.0);
+        return MassExtinction{Spectrum::grey(grams), spectrum(low, high) / grams};
+      }
       case 1:
         return StatedExtinction{spectrum(low, high)};
       case 2:
@@ -82,8 +92,13 @@ class Dice {
   }
   std::optional<Background> background() {
     if (coin(0.3)) return std::nullopt;
-    return Background{coin(0.8) ? Air::note : Air::none, coin() ? 1.0 : between(0.0, 5.0),
-                      coin() ? std::nullopt : profile()};
+    Background air;
+    air.air = coin(0.4) ? Air::note : coin(0.6) ? Air::standard : Air::none;
+    air.exaggeration = coin() ? 1.0 : between(0.0, 5.0);
+    if (coin()) air.profile = profile();
+    if (coin(0.3)) air.altitude = between(-400.0, 8000.0);
+    if (coin(0.3)) air.ozone = between(100.0, 500.0);
+    return air;
   }
   StatedSpecies species(const std::string& name) {
     StatedSpecies s;
@@ -107,19 +122,67 @@ class Dice {
     return {between(0.0, 1.0), between(-0.99, 0.99), between(-0.99, 0.99), density(1e-4, 1.0), albedo(), veil(),
             profile()};
   }
+  TwoLobesExplicit two_lobes_explicit() {
+    return {{between(-0.99, 0.99), density(1e-4, 1.0), albedo()},
+            {between(-0.99, 0.99), density(1e-4, 1.0), albedo()},
+            veil(),
+            profile()};
+  }
+  Measured measured() {
+    Measured m;
+    m.air = static_cast<Particles>(below(8));
+    switch (is_water(m.air) ? below(4) : below(3)) {
+      case 0:
+        m.visibility = magnitude(1.0, 1e5);
+        m.contrast = coin() ? 0.05 : 0.02;
+        break;
+      case 1:
+        m.extinction = magnitude(1e-5, 1.0);
+        break;
+      case 2:
+        m.turbidity = between(1.0, 10.0);
+        break;
+      default:
+        m.liquid_water_content = magnitude(1e-3, 1.0);
+    }
+    if (is_water(m.air) && coin()) {
+      m.droplet_diameter = m.air == Particles::fog ? magnitude(1.5, 50.0) : magnitude(100.0, 1e4);
+    }
+    if (coin(0.3)) m.albedo = albedo();
+    if (coin(0.3)) m.angstrom_exponent = between(-0.2, 2.0);
+    if (coin(0.3)) m.mean_cosine = between(-0.5, 0.95);
+    m.profile = profile();
+    return m;
+  }
   std::optional<Conditions> conditions() {
-    switch (below(3)) {
+    switch (below(5)) {
       case 0:
         return simple();
       case 1:
         return two_lobes();
+      case 2:
+        return two_lobes_explicit();
+      case 3:
+        return measured();
       default:
         return std::nullopt;
     }
   }
+  /// Where a measured visibility is beyond what else is in the medium leaves, takes half of that.
+  static void make_possible(MediumDials& dials) {
+    auto* m = dials.conditions ? std::get_if<Measured>(&*dials.conditions) : nullptr;
+    if (m == nullptr || !m->visibility) return;
+    MediumDials rest = dials;
+    rest.conditions.reset();
+    const auto others = std::get<Medium>(compile(rest));
+    const double extinction =
+        at_wavelength(surroundings_of(rest, others).extinction, wavelengths_of(dials.channels), 550.0);
+    if (extinction > 0.0) m->visibility = std::min(*m->visibility, 0.5 * -std::log(m->contrast) / extinction);
+  }
   MediumDials medium() {
-    MediumDials dials{background(), conditions(), {}};
+    MediumDials dials{background(), conditions(), {}, {}};
     for (int i = below(3); i > 0; --i) dials.species.push_back(species(coin() ? "soot" : "dust"));
+    make_possible(dials);
     return dials;
   }
 

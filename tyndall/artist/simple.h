@@ -7,6 +7,8 @@
 #include <tuple>
 #include <vector>
 
+#include "tyndall/artist/remark.h"
+#include "tyndall/artist/surroundings.h"
 #include "tyndall/artist/veil.h"
 
 namespace tyndall {
@@ -47,21 +49,17 @@ inline HazyMurky simple_strengths(double w) { return {1.0 - std::fabs(1.0 - 2.0 
 /// The same divided by their sum min(1, 2w); w = 0 is taken as pure hazy.
 inline HazyMurky simple_shares(double w) { return w <= 0.5 ? HazyMurky{1.0, 0.0} : simple_strengths(w); }
 
-/// The channel in which visibility is stated: green.
-inline constexpr std::size_t visibility_channel = 1;
-
-/// Adds the model's species. `others` is the extinction at the origin [1/m] of all that is in the finished medium
-/// besides this model; it counts only when visibility is held: then thickness is multiplied by the one factor that
-/// gives the finished medium, at the origin and in the green channel, the extinction that `thickness` states. Objects
-/// where the rest alone is thicker than that.
-inline std::optional<Objection> compile(const Simple& simple, const Spectrum& others, std::vector<Species>& out) {
+/// Adds the model's species. The others' extinction at the origin counts only when visibility is held: then thickness
+/// is multiplied by the one factor that gives the finished medium, at the origin and in the green channel, the
+/// extinction that `thickness` states. Objects where the rest alone is thicker than that.
+inline std::optional<Objection> compile(const Simple& simple, const Surroundings& others, std::vector<Species>& out) {
   Spectrum thickness = extinction_of(simple.thickness);
   HazyMurky k = simple_strengths(simple.w);
   if (simple.hold == Hold::visibility) {
     const std::size_t green = visibility_channel;
     const double here = simple.profile ? mean_factor(*simple.profile, Vector{}) : 1.0;
     const double veil = simple.veil ? extinction_of(simple.veil->density)[green] : 0.0;
-    const double stated = thickness[green], rest = others[green] + here * veil;
+    const double stated = thickness[green], rest = others.extinction[green] + here * veil;
     if (!(here > 0.0) || !std::isfinite(here)) {
       return Objection{"profile", "a profile that leaves nothing at the origin, where visibility is held",
                        "one that covers the origin, or no \"hold\""};
@@ -84,20 +82,31 @@ inline std::optional<Objection> compile(const Simple& simple, const Spectrum& ot
   return std::nullopt;
 }
 
-/// The same medium with visibility held: thickness becomes that of the finished medium. `others` as for compile(). None
-/// where visibility cannot be held: nothing at the origin, or no thickness in green.
-inline std::optional<Simple> held(Simple simple, const Spectrum& others) {
+/// The same medium with visibility held: thickness becomes that of the finished medium. Dials and `others`, the
+/// extinction of what else is at the origin, are in units of `meters_per_unit` metres. None where visibility cannot be
+/// held: nothing at the origin, or no thickness in green.
+inline std::optional<Simple> held(Simple simple, const Spectrum& others, double meters_per_unit) {
   if (simple.hold) return simple;
   const std::size_t green = visibility_channel;
-  const Spectrum thickness = extinction_of(simple.thickness);
+  const Spectrum thickness = extinction_of(simple.thickness, meters_per_unit);
   const double here = simple.profile ? mean_factor(*simple.profile, Vector{}) : 1.0;
-  const double veil = simple.veil ? extinction_of(simple.veil->density)[green] : 0.0;
+  const double veil = simple.veil ? extinction_of(simple.veil->density, meters_per_unit)[green] : 0.0;
   const HazyMurky k = simple_strengths(simple.w);
   const double whole = others[green] + here * (veil + (k.hazy + k.murky) * thickness[green]);
   if (!(here > 0.0) || !(thickness[green] > 0.0)) return std::nullopt;
   simple.thickness = PlainExtinction{thickness * (whole / thickness[green])};
   simple.hold = Hold::visibility;
   return simple;
+}
+
+/// What in the model, in SI, is not found in nature.
+inline void remark_on(const Simple& simple, const Remarks& remarks) {
+  remark_on_thickness(simple.thickness, "thickness", remarks);
+  const double visibility = visibility_of(extinction_of(simple.thickness)[visibility_channel]);
+  if (visibility < 1000.0 && smallest(simple.albedo) < 0.9) {
+    remarks.add("albedo", "an albedo of " + short_number(smallest(simple.albedo)) + " in fog",
+                "above 0.999: drops of water hardly absorb visible light; put soot or smoke beside them as a species");
+  }
 }
 
 }  // namespace tyndall

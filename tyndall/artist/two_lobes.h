@@ -5,6 +5,9 @@
 #include <tuple>
 #include <vector>
 
+#include "tyndall/artist/remark.h"
+#include "tyndall/artist/standard_air.h"
+#include "tyndall/artist/surroundings.h"
 #include "tyndall/artist/veil.h"
 
 namespace tyndall {
@@ -36,7 +39,8 @@ struct TwoLobes {
 };
 
 /// Adds the model's species; what else is in the medium does not matter to it.
-inline std::optional<Objection> compile(const TwoLobes& lobes, const Spectrum& /*others*/, std::vector<Species>& out) {
+inline std::optional<Objection> compile(const TwoLobes& lobes, const Surroundings& /*others*/,
+                                        std::vector<Species>& out) {
   const Spectrum thickness = extinction_of(lobes.thickness);
   add_unless_void(species_of("first lobe", (1.0 - lobes.r) * thickness, lobes.albedo,
                              HenyeyGreenstein<double>{lobes.g1}, lobes.profile),
@@ -46,6 +50,28 @@ inline std::optional<Objection> compile(const TwoLobes& lobes, const Spectrum& /
       out);
   compile(lobes.veil, lobes.profile, out);
   return std::nullopt;
+}
+
+/// Remarks on two lobes of which the second has the share r.
+inline void remark_on_lobes(const std::string& field, double g1, double g2, double r, const Remarks& remarks) {
+  if (g1 > g2) {
+    remarks.add(
+        field,
+        "a first lobe that points further forward than the second, " + short_number(g1) + " > " + short_number(g2),
+        "the forward lobe second, as in fitted sets; r is the second's share (in Glassner's sets the first's)");
+  }
+  // A white Lambertian sphere scatters backward as much as any particle in air does.
+  const double mean = (1.0 - r) * g1 + r * g2;
+  if (mean < -4.0 / 9.0 - 1e-12) {
+    remarks.add(field, "a mean cosine of " + short_number(mean) + ", back to where the light comes from",
+                "0 (small particles) to 0.9 (fog and rain); -0.44 for a Lambertian sphere");
+  }
+}
+
+/// What in two lobes, in SI, is unusual or not found in nature.
+inline void remark_on(const TwoLobes& lobes, const Remarks& remarks) {
+  remark_on_thickness(lobes.thickness, "thickness", remarks);
+  remark_on_lobes("g1", lobes.g1, lobes.g2, lobes.r, remarks);
 }
 
 }  // namespace tyndall

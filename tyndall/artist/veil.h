@@ -1,8 +1,11 @@
 #pragma once
 // The veil: the note's isotropic term for dust and smoke. (Real dust scatters forward: mean cosine near 0.7.)
+#include <string>
 #include <tuple>
 #include <vector>
 
+#include "tyndall/artist/remark.h"
+#include "tyndall/artist/standard_air.h"
 #include "tyndall/artist/stated_species.h"
 
 namespace tyndall {
@@ -21,6 +24,17 @@ struct Veil {
 inline void compile(const std::optional<Veil>& veil, const std::optional<Profile>& profile, std::vector<Species>& out) {
   if (veil) {
     add_unless_void(species_of("veil", extinction_of(veil->density), veil->albedo, Isotropic<double>{}, profile), out);
+  }
+}
+
+/// A remark where a thickness is stated by a visibility that even clear air does not have, in green. In SI.
+inline void remark_on_thickness(const Density& thickness, const std::string& field, const Remarks& remarks) {
+  const auto* stated = std::get_if<Visibility>(&thickness);
+  if (stated == nullptr) return;
+  const double metres = stated->visibility[1], farthest = farthest_visibility(stated->contrast);
+  if (metres > farthest) {
+    remarks.add(field + "/visibility", "a visibility of " + short_number(metres) + " m",
+                "at most " + short_number(farthest) + " m, through air alone at sea level");
   }
 }
 

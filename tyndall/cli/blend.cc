@@ -3,6 +3,7 @@
 #include <string>
 
 #include "tyndall/cli/commands.h"
+#include "tyndall/cli/warnings.h"
 #include "tyndall/document/binding.h"
 #include "tyndall/document/medium_blend.h"
 
@@ -34,6 +35,8 @@ void blend(const BlendOptions& options) {
     std::cerr << "tyndall: warning: the channels of " << printable(options.a) << " and " << printable(options.b)
               << " mean different things; they are blended one by one\n";
   }
+  warn(a, options.a);
+  warn(b, options.b);
   write_medium_file(options.out, blended(a, b, options.at, how, "blend of " + options.a + " and " + options.b));
 }
 

@@ -10,6 +10,7 @@
 #include "tyndall/cli/commands.h"
 #include "tyndall/cli/number_list.h"
 #include "tyndall/cli/table.h"
+#include "tyndall/cli/warnings.h"
 #include "tyndall/document/law_text.h"
 #include "tyndall/document/medium_file.h"
 #include "tyndall/document/medium_summary.h"
@@ -56,6 +57,7 @@ Subject subject_of(const std::string& text) {
                 "a medium file or " + one_of(word, law_names()));
   }
   const MediumFile file = read_medium_file(text);
+  warn(file, text);
   const auto mixture = mixture_at(compile(file, text));
   return {{mixture.begin(), mixture.end()}, std::nullopt, file.name};
 }

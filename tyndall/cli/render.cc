@@ -118,7 +118,7 @@ void render_scene(const RenderOptions& options) {
   std::optional<Film> film;
   if (!options.size.empty()) film = film_size(options.size);
   check_outputs(options.outputs);
-  Scene scene = scene_of(options.scene);
+  Scene scene = scene_of(options.scene, options.quiet);
   if (film) scene.film = *film;
   check_memory(scene.film);
   const Geometry geometry(scene);
@@ -171,7 +171,7 @@ void add_render(CLI::App& app) {
       ->check(CLI::IsMember(std::vector<std::string>(tone_names.begin(), tone_names.end())));
   add_threads(*command, options->threads);
   add_seed(*command, options->seed);
-  command->add_flag("--quiet", options->quiet, "No progress");
+  command->add_flag("--quiet", options->quiet, "No progress, no warnings");
   command->footer(
       "A scene is a .scene.json, or a .glb or .gltf of any modelling program. Ctrl-C stops early and writes the "
       "picture as it is (exit code 130).\n\n"

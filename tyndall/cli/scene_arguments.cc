@@ -13,10 +13,12 @@ void add_scene_arguments(CLI::App& command, SceneArguments& arguments) {
                    "Follow references to files outside the folder of the file that names them");
 }
 
-Scene scene_of(const SceneArguments& arguments) {
+Scene scene_of(const SceneArguments& arguments, bool quiet) {
   if (arguments.medium && arguments.medium->empty()) throw Fault("--medium", "an empty name", "the name of a file");
   Scene scene = read_scene(arguments.scene, {arguments.medium.value_or(""), arguments.allow_path});
-  for (const std::string& warning : scene.warnings) std::cerr << "warning: " << warning << '\n';
+  if (!quiet) {
+    for (const std::string& warning : scene.warnings) std::cerr << "warning: " << warning << '\n';
+  }
   return scene;
 }
 

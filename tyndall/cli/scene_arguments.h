@@ -17,7 +17,7 @@ struct SceneArguments {
 
 void add_scene_arguments(CLI::App& command, SceneArguments& arguments);
 
-/// The scene that they name; its warnings go to stderr. Throws Fault.
-Scene scene_of(const SceneArguments& arguments);
+/// The scene that they name; its warnings go to stderr unless `quiet`. Throws Fault.
+Scene scene_of(const SceneArguments& arguments, bool quiet = false);
 
 }  // namespace tyndall

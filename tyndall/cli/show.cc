@@ -5,6 +5,7 @@
 
 #include "tyndall/cli/commands.h"
 #include "tyndall/cli/table.h"
+#include "tyndall/cli/warnings.h"
 #include "tyndall/document/medium_file.h"
 #include "tyndall/document/medium_summary.h"
 #include "tyndall/document/spelling.h"
@@ -24,11 +25,32 @@ std::string profile_text(const std::vector<Profile>& profiles) {
   return text;
 }
 
-void print_table(const MediumSummary& medium) {
+/// A row of a table: what, and one text per channel.
+void add_row(Table& table, const std::string& name, const Spectrum& values, std::string (*text_of)(double)) {
+  table.add({name, text_of(values[0]), text_of(values[1]), text_of(values[2])});
+}
+
+/// The extinction in the other ways in which people and programs state it.
+void print_densities(const Spectrum& extinction, double meters_per_unit) {
+  Table table;
+  const double distance = telling_distance(extinction);
+  table.add({"the same extinction, said otherwise", "red", "green", "blue"});
+  add_row(table, "half of the light is gone after", Spectrum::grey(std::log(2.0)) / extinction, length_text);
+  add_row(table, "90 % of the light is gone after", Spectrum::grey(std::log(10.0)) / extinction, length_text);
+  add_row(table, "transmittance of " + length_text(distance), exp(-distance * extinction), value_text);
+  add_row(table, "optical depth of " + length_text(distance), distance * extinction, value_text);
+  add_row(table, "mass, if a gram blocks 1 m^2 [g/m^3]", extinction, value_text);
+  if (meters_per_unit != 1.0) {
+    add_row(table, "extinction per unit of " + length_text(meters_per_unit), extinction * meters_per_unit, value_text);
+  }
+  std::cout << '\n' << table.text();
+}
+
+void print_table(const MediumSummary& medium, double meters_per_unit) {
   std::cout << (medium.name.empty() ? "(no name)" : printable(medium.name)) << "\n\n";
   Table table;
-  const auto row = [&](const std::string& name, const ChannelList& values, auto text_of) {
-    table.add({name, text_of(values[0]), text_of(values[1]), text_of(values[2])});
+  const auto row = [&](const std::string& name, const ChannelList& values, std::string (*text_of)(double)) {
+    add_row(table, name, Spectrum{values}, text_of);
   };
   table.add({"at the origin", "red", "green", "blue"});
   row("visibility, 5 % contrast", medium.visibility_5, length_text);
@@ -40,6 +62,7 @@ void print_table(const MediumSummary& medium) {
   row("scattering [1/m]", medium.scattering, value_text);
   row("absorption [1/m]", medium.absorption, value_text);
   std::cout << table.text();
+  if (largest(Spectrum{medium.extinction}) > 0.0) print_densities(Spectrum{medium.extinction}, meters_per_unit);
   if (medium.exaggeration != 1.0) {
     std::cout << "\nThe background is exaggerated by a factor of " << value_text(medium.exaggeration) << ".\n";
   }
@@ -53,6 +76,9 @@ void print_table(const MediumSummary& medium) {
     std::cout << "\nNothing of it is at the origin; its species have their own places.\n";
   }
   std::cout << '\n' << (medium.species.empty() ? "Made of nothing: a vacuum.\n" : species.text());
+  for (std::size_t i = 0; i < medium.sources.size(); ++i) {
+    std::cout << (i == 0 ? "\n" : "") << "  " << medium.sources[i] << ".\n";
+  }
 }
 
 struct ShowOptions {
@@ -63,12 +89,16 @@ struct ShowOptions {
 void show(const ShowOptions& options) {
   const MediumFile file = read_medium_file(options.medium);
   MediumSummary summary = summary_of(compile(file, options.medium));
+  const MediumDials dials = dials_in_metres(file);
   summary.name = file.name;
   summary.exaggeration = file.background ? file.background->exaggeration : 1.0;
+  summary.sources = statements_on(dials);
+  summary.warnings = remarks_on(dials);
+  warn(file, options.medium);
   if (options.json) {
     std::cout << pretty(written(summary));
   } else {
-    print_table(summary);
+    print_table(summary, file.meters_per_unit);
   }
 }
 

@@ -8,6 +8,7 @@
 #include "tyndall/cli/arguments.h"
 #include "tyndall/cli/commands.h"
 #include "tyndall/cli/table.h"
+#include "tyndall/cli/warnings.h"
 #include "tyndall/document/medium_file.h"
 #include "tyndall/document/spelling.h"
 
@@ -81,7 +82,8 @@ void slab(const SlabOptions& options) {
   for (const double mu : options.mu) {
     if (!(mu > 0.0 && mu <= 1.0)) throw Fault("--mu", "the number " + value_text(mu), "cosines above 0, to 1");
   }
-  request.medium = compile(read_medium_file(options.medium), options.medium);
+  const MediumFile file = read_medium_file(options.medium);
+  request.medium = compile(file, options.medium);
   request.mu = options.mu;
   request.diffuse = options.illumination == "diffuse";
   request.mu0 = options.mu0;
@@ -92,6 +94,7 @@ void slab(const SlabOptions& options) {
   if (const std::string objection = slab_objection(request); !objection.empty()) {
     throw Fault("slab", "a layer whose light cannot be computed", objection);
   }
+  warn(file, options.medium);
   const SlabResult result = solve_slab(request);
   options.json ? print_json(request, result) : print_table(request, result);
 }

@@ -192,9 +192,9 @@ TEST(MediumFile, WrittenAndReadAgainIsTheSameFile) {
   Dice dice(21);
   for (int i = 0; i < 3000; ++i) {
     MediumFile file;
-    static_cast<MediumDials&>(file) = dice.medium();
-    file.name = i % 2 == 0 ? "plain" : "quote \" newline \n */ </script> \xE9\x9C\xA7 \\ \x01";
     file.meters_per_unit = dice.magnitude(1e-3, 1e3);
+    static_cast<MediumDials&>(file) = in_metres(dice.medium(), 1.0 / file.meters_per_unit);
+    file.name = i % 2 == 0 ? "plain" : "quote \" newline \n */ </script> \xE9\x9C\xA7 \\ \x01";
     if (dice.coin()) file.channels = ChannelWavelengths{{611.0, 549.0, 464.0}};
     const std::string text = medium_to_json(file);
     const MediumFile again = medium_from_json(text, "t");

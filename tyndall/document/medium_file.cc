@@ -1,6 +1,7 @@
 #include "tyndall/document/medium_file.h"
 
 #include "tyndall/document/binding.h"
+#include "tyndall/document/spelling.h"
 #include "tyndall/document/whole_file.h"
 
 namespace tyndall {
@@ -57,6 +58,11 @@ void move_schema(MediumFile& file, const std::filesystem::path& from, const std:
   const fs::path new_folder = fs::absolute(to, error).parent_path();
   const fs::path moved = (old_folder / schema).lexically_normal().lexically_relative(new_folder.lexically_normal());
   if (!error && !moved.empty()) file.schema = moved.generic_string();
+}
+
+std::string remark_text(const Remark& remark, const std::string& file, const std::string& pointer) {
+  return printable(file) + ':' + printable(pointer + '/' + remark.field, 200) + ": found " + remark.found +
+         ", expected " + remark.allowed;
 }
 
 std::string medium_to_json(const MediumFile& file) { return pretty(written(file)); }

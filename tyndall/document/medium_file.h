@@ -15,33 +15,12 @@ namespace tyndall {
 enum class MediumFormat { version_1 };
 constexpr std::array<std::string_view, 1> words_of(MediumFormat) { return {"tyndall-medium/1"}; }
 
-/// What the three channels are.
-enum class ColorSpace { linear_srgb };
-constexpr std::array<std::string_view, 1> words_of(ColorSpace) { return {"linear-srgb"}; }
-struct ChannelSpace {
-  ColorSpace space = ColorSpace::linear_srgb;
-  bool operator==(const ChannelSpace&) const = default;
-  static constexpr auto fields() {
-    return std::tuple{Field{"space", &ChannelSpace::space, any_number, "", "The colour space.", Scaling::none, true}};
-  }
-};
-struct ChannelWavelengths {
-  std::array<double, channel_count> wavelengths_nm{680.0, 550.0, 440.0};
-  bool operator==(const ChannelWavelengths&) const = default;
-  static constexpr auto fields() {
-    return std::tuple{Field{"wavelengths_nm", &ChannelWavelengths::wavelengths_nm, positive, "nm",
-                            "The wavelengths that the channels stand for.", Scaling::none, true}};
-  }
-};
-using ChannelTag = std::variant<ChannelSpace, ChannelWavelengths>;
-
 /// What a medium file says, as it says it: lengths and inverse lengths in its own units.
 struct MediumFile : MediumDials {
   std::optional<std::string> schema;  // for editors; not read
   MediumFormat format = MediumFormat::version_1;
   std::string name;
   double meters_per_unit = 1.0;
-  std::optional<ChannelTag> channels;  // absent: linear sRGB
   static constexpr auto fields() {
     return std::tuple_cat(
         std::tuple{
@@ -49,8 +28,7 @@ struct MediumFile : MediumDials {
             Field{"format", &MediumFile::format, any_number, "", "The format of this file.", Scaling::none, true},
             Field{"name", &MediumFile::name, any_number, "", "What to call the medium."},
             Field{"meters_per_unit", &MediumFile::meters_per_unit, positive, "m",
-                  "The file's unit of length: 1 for metres, 0.01 for centimetres."},
-            Field{"channels", &MediumFile::channels, any_number, "", "What the three channels are."}},
+                  "The file's unit of length: 1 for metres, 0.01 for centimetres."}},
         MediumDials::fields());
   }
 };
@@ -74,6 +52,9 @@ MediumDials dials_in_metres(const MediumFile& file);
 /// A medium read from the file `from`, to be written as `to`: a "$schema" that names a file beside the old place names
 /// the same one from the new place. Addresses (https://..) and absolute names stay.
 void move_schema(MediumFile& file, const std::filesystem::path& from, const std::filesystem::path& to);
+
+/// "file:/pointer: found ..., expected ...": a remark on a medium that stands at `pointer` of the file.
+std::string remark_text(const Remark& remark, const std::string& file, const std::string& pointer = "");
 
 std::string medium_to_json(const MediumFile& file);
 /// Writes the file whole or not at all. Throws Fault, also where the dials could not be read back.

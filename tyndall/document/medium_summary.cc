@@ -1,10 +1,18 @@
 #include "tyndall/document/medium_summary.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "tyndall/artist/surroundings.h"
 #include "tyndall/phase/merged_lobes.h"
 
 namespace tyndall {
+
+double telling_distance(const Spectrum& extinction) {
+  const double green = extinction[visibility_channel];
+  return green > 0.0 ? std::pow(10.0, std::clamp(std::round(-std::log10(green)), -6.0, 9.0)) : 1000.0;
+}
 
 MediumSummary summary_of(const Medium& medium, const Vector& point) {
   MediumSummary out;
@@ -17,6 +25,7 @@ MediumSummary summary_of(const Medium& medium, const Vector& point) {
   out.mean_free_path = (Spectrum::grey(1.0) / extinction).value;
   out.visibility_5 = map(extinction, [](double x) { return visibility_of(x, 0.05); }).value;
   out.visibility_2 = map(extinction, [](double x) { return visibility_of(x, 0.02); }).value;
+  out.densities = every_form_of(extinction, telling_distance(extinction), 1.0);
   out.mean_cosine = mean_cosine_at(medium, point).value;
   for (const Species& s : medium.species) {
     const double here = mean_factor(s, point);

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <vector>
 
+#include "tyndall/artist/remark.h"
 #include "tyndall/artist/stated_species.h"
 
 namespace tyndall {
@@ -39,6 +40,9 @@ struct MediumSummary {
   ChannelList albedo{}, mean_free_path{};                     // 1, [m]
   ChannelList visibility_5{}, visibility_2{}, mean_cosine{};  // [m], [m], 1
   std::vector<SpeciesSummary> species;
+  std::vector<Density> densities;    // the extinction in every form; lengths in metres
+  std::vector<std::string> sources;  // of numbers that the medium uses without stating them
+  std::vector<Remark> warnings;      // what is outside what physics allows
   static constexpr auto fields() {
     return std::tuple{
         Field{"name", &MediumSummary::name, any_number, "", "The medium's name."},
@@ -51,12 +55,21 @@ struct MediumSummary {
         Field{"visibility_5", &MediumSummary::visibility_5, any_number, "m", "Distance at which 5 % contrast is left."},
         Field{"visibility_2", &MediumSummary::visibility_2, any_number, "m", "Distance at which 2 % contrast is left."},
         Field{"mean_cosine", &MediumSummary::mean_cosine, any_number, "1", "Of the mixture, weighted by scattering."},
-        Field{"species", &MediumSummary::species, any_number, "", "What the medium is made of.", Scaling::none, true}};
+        Field{"species", &MediumSummary::species, any_number, "", "What the medium is made of.", Scaling::none, true},
+        Field{"densities", &MediumSummary::densities, any_number, "", "The extinction in every form.", Scaling::none,
+              true},
+        Field{"sources", &MediumSummary::sources, any_number, "", "Where numbers come from.", Scaling::none, true},
+        Field{"warnings", &MediumSummary::warnings, any_number, "", "What is outside what physics allows.",
+              Scaling::none, true}};
   }
 };
 
-/// The medium at a point [m]; albedo and mean cosine are NaN where there is nothing to average, lengths infinite where
-/// nothing is lost.
+/// The power of ten [m] nearest to the mean free path in green: over that distance transmittance and optical depth are
+/// numbers that say something. 1000 where nothing is lost.
+double telling_distance(const Spectrum& extinction);
+
+/// The medium at a point [m], without what only the dials know (name, exaggeration, sources, warnings); albedo and mean
+/// cosine are NaN where there is nothing to average, lengths infinite where nothing is lost.
 MediumSummary summary_of(const Medium& medium, const Vector& point = {});
 
 /// The law of each channel's mixture at a point as a sum of lobes; empty where nothing scatters.

@@ -101,7 +101,7 @@ struct Scene {
   double fps = 24.0;
   double time = 0.0;  // [s] of the picture: what the wind has done to noise
   IntegratorSettings integrator;
-  std::vector<std::string> warnings;  // what the files ask for that is not done, one sentence each
+  std::vector<std::string> warnings;  // what the files ask for that is not done or not in nature
 };
 
 }  // namespace tyndall

@@ -87,6 +87,14 @@ void note_darkness(Scene& scene, const fs::path& file) {
   }
 }
 
+/// What in a medium is outside what physics allows, once for each place; the medium is at `pointer` of the file.
+void note_remarks(Scene& scene, const MediumFile& medium, const std::string& file, const std::string& pointer) {
+  for (const Remark& remark : remarks_on(dials_in_metres(medium))) {
+    const std::string text = remark_text(remark, file, pointer);
+    if (std::ranges::find(scene.warnings, text) == scene.warnings.end()) scene.warnings.push_back(text);
+  }
+}
+
 /// Light for a scene that has none: all around it, or where the medium lets nothing through, a lamp beside the camera
 /// that is as bright on what the camera looks at.
 void stand_in_for_light(Scene& scene, const fs::path& file) {
@@ -121,7 +129,11 @@ Scene scene_of_gltf(const fs::path& file, const SceneOptions& options) {
   Scene scene;
   const auto camera = add_gltf(scene, file, 1.0, options.allow_path);
   complete_view(scene, camera, false, false);
-  if (!options.medium.empty()) scene.medium = compile(read_medium_file(options.medium), options.medium.string());
+  if (!options.medium.empty()) {
+    const MediumFile medium = read_medium_file(options.medium);
+    note_remarks(scene, medium, options.medium.string(), "");
+    scene.medium = compile(medium, options.medium.string());
+  }
   if (!has_light_inside(scene) && !has_light_outside(scene)) stand_in_for_light(scene, file);
   note_darkness(scene, file);
   return scene;
@@ -140,7 +152,7 @@ class Assembly {
     scene_.integrator = description.integrator;
     if (description.film) scene_.film = *description.film;
     if (!options_.medium.empty()) {
-      add_medium(read_medium_file(options_.medium), options_.medium.string(), {});
+      add_medium(read_medium_file(options_.medium), options_.medium.string(), "", {});
     } else if (description.medium) {
       add_medium(*description.medium, root_.at("medium"), {});
     }
@@ -192,18 +204,23 @@ class Assembly {
   void add_medium(const MediumReference& reference, const JsonCursor& at, const std::vector<Profile>& profiles) {
     if (const auto* name = std::get_if<MediumName>(&reference)) {
       const fs::path path = named(name->file, at);
-      add_medium(read_medium_file(path), path.string(), profiles);
+      add_medium(read_medium_file(path), path.string(), "", profiles);
     } else {
-      add_medium(medium_file_at(at), at.file(), profiles);
+      add_medium(medium_file_at(at), at.file(), at.pointer(), profiles);
     }
   }
 
-  void add_medium(const MediumFile& file, const std::string& name, const std::vector<Profile>& profiles) {
+  /// A medium of the file `name`, where it stands at `pointer`.
+  void add_medium(const MediumFile& file, const std::string& name, const std::string& pointer,
+                  const std::vector<Profile>& profiles) {
     const ChannelTag channels = channels_of(file);
     if (channels_ && *channels_ != channels) {
-      scene_.warnings.push_back(place(name) + ": its channels mean something else than those of the media before it");
+      scene_.warnings.push_back(place(name, 0, pointer) +
+                                ": its channels mean something else than those of the first medium; they are added one "
+                                "by one");
     }
-    channels_ = channels;
+    if (!channels_) channels_ = channels;
+    note_remarks(scene_, file, name, pointer);
     for (Species& species : compile(file, name).species) {
       species.profiles.insert(species.profiles.end(), profiles.begin(), profiles.end());
       scene_.medium.species.push_back(std::move(species));
