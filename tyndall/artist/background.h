@@ -61,7 +61,7 @@ inline Spectrum air_scattering(Air air, const Spectrum& wavelengths_nm) {
 }
 
 /// The law of a kind of air. Standard air is depolarised as its King factor in the green channel says (0.0284 at 550
-/// nm); between 440 and 680 nm that changes the density over directions by less than 0.2 %.
+/// nm); between 440 and 680 nm its law differs from that by less than 0.05 %.
 inline Rayleigh<double> air_law(Air air, const Spectrum& wavelengths_nm) {
   return {air == Air::standard ? depolarisation_of(king_factor(wavelengths_nm[1])) : 0.0};
 }
@@ -110,9 +110,11 @@ inline std::vector<std::string> statements_on(const Background& background, cons
   std::string channels;
   for (const double nm : wavelengths_nm.value) channels += (channels.empty() ? "" : ", ") + short_number(nm);
   const auto rounded = [](double x) { return short_number(std::round(x * 10.0) / 10.0); };
-  const std::string where = short_number(background.altitude) + " m above the sea (" + rounded(state.temperature) +
-                            " K, " + rounded(state.pressure / 100.0) + " hPa, density " +
-                            rounded(100.0 * state.relative_density) + " % of that at the sea)";
+  const std::string weather = rounded(state.temperature) + " K, " + rounded(state.pressure / 100.0) + " hPa";
+  const std::string where = background.altitude == 0.0
+                                ? "sea level (" + weather + ")"
+                                : short_number(background.altitude) + " m above the sea (" + weather + ", density " +
+                                      rounded(100.0 * state.relative_density) + " % of that at the sea)";
   if (background.air == Air::note) out.push_back("air: the note's triplet, 15 to 20 % above measured air, at " + where);
   if (background.air == Air::standard) {
     out.push_back("air: Bodhaine et al. 1999 at " + channels + " nm, depolarisation " +

@@ -107,6 +107,24 @@ TEST(Interpolate, RefusesUnlikeMediaAndPointsToMix) {
   }
 }
 
+TEST(Interpolate, RefusesMeasuredAirOfDifferentKinds) {
+  Measured fog, dust;
+  fog.air = Particles::fog;
+  dust.air = Particles::dust;
+  fog.visibility = dust.visibility = 500.0;
+  const Blend blend = interpolate({std::nullopt, fog, {}}, {std::nullopt, dust, {}}, 0.5);
+  ASSERT_TRUE(std::holds_alternative<Objection>(blend));
+  EXPECT_EQ(std::get<Objection>(blend).field, "conditions/air");
+  EXPECT_NE(std::get<Objection>(blend).expected.find("mix"), std::string::npos);
+}
+
+TEST(Interpolate, FadesAnOzoneLayerIn) {
+  Background with, without;
+  with.ozone = 300.0;
+  const MediumDials half = dials_of(interpolate({without, {}, {}}, {with, {}, {}}, 0.5));
+  EXPECT_EQ(half.background->ozone, 150.0);
+}
+
 TEST(Interpolate, WhatIsMissingCountsAsWithoutDensity) {
   const Simple fog{0.8, PlainExtinction{Spectrum::grey(1e-2)}, Spectrum::grey(1.0), {}, {}, {}};
   const MediumDials clear{Background{}, {}, {}}, thick{Background{}, fog, {}};
@@ -249,6 +267,27 @@ TEST(Morph, PutsLobesInOrderFirst) {
   EXPECT_DOUBLE_EQ(mean_cosine(half.species[0].phase), 0.8);
   EXPECT_DOUBLE_EQ(mean_cosine(half.species[1].phase), -0.3);
   EXPECT_NEAR(half.species[0].scattering[0], 0.75e-3, 1e-17);
+}
+
+TEST(Morph, PutsExplicitLobesInOrderFirst) {
+  const ExplicitLobe ahead{0.8, PlainExtinction{Spectrum::grey(1e-3)}, Spectrum::grey(1.0)};
+  const ExplicitLobe back{-0.3, PlainExtinction{Spectrum::grey(2e-3)}, Spectrum::grey(1.0)};
+  const TwoLobesExplicit a{ahead, back, {}, {}}, swapped{back, ahead, {}, {}};
+  const Medium half = medium_of(dials_of(morph({std::nullopt, a, {}}, {std::nullopt, swapped, {}}, 0.5)));
+  ASSERT_EQ(half.species.size(), 2u);
+  EXPECT_DOUBLE_EQ(mean_cosine(half.species[0].phase), 0.8);
+  EXPECT_NEAR(half.species[1].scattering[0], 2e-3, 1e-17);
+}
+
+TEST(Morph, WhatIsNotAtTheOriginMorphsByItself) {
+  Background air;
+  air.ozone = 100.0;
+  Background other = air;
+  other.ozone = 400.0;
+  const Medium half = medium_of(dials_of(morph({air, {}, {}}, {other, {}, {}}, 0.5)));
+  ASSERT_EQ(half.species.size(), 2u);
+  EXPECT_NEAR(half.species[0].scattering[1], note_air[1], 1e-18);
+  EXPECT_NEAR(half.species[1].absorption[1], ozone_absorption(550.0, 200.0), 1e-18);
 }
 
 TEST(Morph, LeavesAnUnchangedBackgroundAlone) {

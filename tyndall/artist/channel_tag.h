@@ -33,8 +33,8 @@ using ChannelTag = std::variant<ChannelSpace, ChannelWavelengths>;
 
 /// The wavelength [nm] at which a channel takes a spectral law's value. Linear sRGB has no wavelengths; 680, 550 and
 /// 440 nm stand for it, because the note's triplet is stated there (as are Bruneton & Neyret 2008 and Hillaire 2020):
-/// air of either kind then means the same channels. What that costs: the sRGB colour of light scattered once by thin
-/// air, taken through the CIE 1931 matching functions, is that of 640, 549 and 441 nm; red is a fifth lower here.
+/// air of either kind then means the same channels. What that costs: the sRGB colour of equal-energy light scattered
+/// once by thin air, taken through the CIE 1931 matching functions, is that of 639, 549 and 441 nm; red is 22 % lower.
 inline Spectrum wavelengths_of(const std::optional<ChannelTag>& tag) {
   ChannelWavelengths stated;
   if (tag && std::holds_alternative<ChannelWavelengths>(*tag)) stated = std::get<ChannelWavelengths>(*tag);

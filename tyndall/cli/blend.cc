@@ -36,7 +36,7 @@ void blend(const BlendOptions& options) {
               << " mean different things; they are blended one by one\n";
   }
   warn(a, options.a);
-  warn(b, options.b);
+  if (options.b != options.a) warn(b, options.b);
   write_medium_file(options.out, blended(a, b, options.at, how, "blend of " + options.a + " and " + options.b));
 }
 

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -72,6 +73,69 @@ TEST_F(Program, ShowSaysNullWhereNothingIsThere) {
   }
   EXPECT_EQ(json["extinction"], Json::parse("[0,0,0]"));
   EXPECT_THAT(tyndall("show m.medium.json").out, HasSubstr("vacuum"));
+}
+
+TEST_F(Program, ShowSaysTheExtinctionInEveryForm) {
+  write("m.medium.json", R"({"format": "tyndall-medium/1", "meters_per_unit": 0.01,
+    "species": [{"density": {"transmittance": [0.5, 0.25, 0.1], "distance": 10000}}]})");
+  const Json json = json_of("show m.medium.json");
+  const double green = std::log(4.0) / 100.0;
+  EXPECT_NEAR(json["extinction"][1].get<double>(), green, 1e-16);
+  // Each form means the same extinction when it is read back, in a file in metres.
+  for (const Json& form : json["densities"]) {
+    write("form.medium.json", R"({"format": "tyndall-medium/1", "species": [{"density": )" + form.dump() + "}]}");
+    const Json again = json_of("show form.medium.json");
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double expected = json["extinction"][c];
+      EXPECT_NEAR(again["extinction"][c].get<double>(), expected, 1e-13 * expected) << form;
+    }
+  }
+  EXPECT_EQ(json["densities"].size(), 7u);
+  EXPECT_EQ(json["warnings"], Json::array());
+  const std::string table = tyndall("show m.medium.json").out;
+  for (const char* row : {"half of the light is gone after", "50 m", "90 % of the light", "transmittance of 100 m",
+                          "optical depth of 100 m", "1.386", "extinction per unit of 1 cm", "0.0001386"}) {
+    EXPECT_THAT(table, HasSubstr(row));
+  }
+}
+
+TEST_F(Program, ShowNamesTheChannelsAsTheFileDoes) {
+  write("m.medium.json", R"({"format": "tyndall-medium/1", "channels": {"wavelengths_nm": [700, 600, 500]},
+    "background": {"air": "standard"}})");
+  EXPECT_THAT(tyndall("show m.medium.json").out, HasSubstr("700 nm"));
+  EXPECT_THAT(tyndall("show " + example("harbour_fog")).out, HasSubstr("red"));
+  const Json json = json_of("show m.medium.json");
+  EXPECT_NEAR(json["scattering"][1].get<double>(), 8.05e-6, 0.02e-6);  // Bodhaine et al. 1999 at 600 nm
+}
+
+TEST_F(Program, ShowSaysWhereNumbersComeFrom) {
+  const Json json = json_of("show " + example("airport_haze"));
+  EXPECT_NEAR(json["visibility_5"][1].get<double>(), 9000.0, 1e-8);
+  ASSERT_EQ(json["sources"].size(), 3u);
+  for (const char* source : {"Bodhaine et al. 1999", "956 hPa", "300 DU", "OPAC"}) {
+    EXPECT_THAT(json["sources"].dump(), HasSubstr(source));
+    EXPECT_THAT(tyndall("show " + example("airport_haze")).out, HasSubstr(source));
+  }
+  EXPECT_EQ(json["warnings"], Json::array());
+}
+
+TEST_F(Program, WhatIsNotInNatureIsWarnedAboutOnceForEachDial) {
+  write("m.medium.json", R"({"format": "tyndall-medium/1", "background": {"exaggeration": 3},
+    "conditions": {"model": "two_lobes", "r": 0.5, "g1": 0.5, "g2": 0, "thickness": 0.01}})");
+  const auto lines = [](const std::string& text) { return std::count(text.begin(), text.end(), '\n'); };
+  for (const char* command : {"show m.medium.json", "show m.medium.json --json", "phase m.medium.json",
+                              "slab m.medium.json --thickness 10 --spp 1000",
+                              "blend m.medium.json m.medium.json --at 0.5 -o out.medium.json"}) {
+    const Outcome run = tyndall(command);
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("warning: m.medium.json:/background/exaggeration: found air exaggerated by a factor "
+                                   "of 3, expected 1: real air"));
+    EXPECT_THAT(run.err, HasSubstr("warning: m.medium.json:/conditions/g1: found"));
+    EXPECT_EQ(lines(run.err), 2) << command;
+  }
+  const Json json = json_of("show m.medium.json");
+  ASSERT_EQ(json["warnings"].size(), 2u);
+  EXPECT_EQ(json["warnings"][0]["field"], "background/exaggeration");
 }
 
 TEST_F(Program, ShowPrintsATable) {

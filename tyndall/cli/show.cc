@@ -13,16 +13,42 @@
 namespace tyndall {
 namespace {
 
+struct ProfileWords {
+  std::string operator()(const ConstantProfile&) const { return "constant"; }
+  std::string operator()(const ExponentialProfile& e) const {
+    return "exponential in height, by e every " + length_text(e.scale_height);
+  }
+  std::string operator()(const LayerProfile& l) const {
+    return "layer from " + length_text(l.bottom) + " to " + length_text(l.top);
+  }
+  std::string operator()(const TentProfile& t) const {
+    return "tent around " + length_text(t.centre) + ", \u00B1 " + length_text(t.half_width);
+  }
+  std::string operator()(const SphereProfile& s) const { return "sphere of radius " + length_text(s.radius); }
+  std::string operator()(const BoxProfile& b) const {
+    const Vector size = b.max - b.min;
+    return "box of " + length_text(size.x) + " x " + length_text(size.y) + " x " + length_text(size.z);
+  }
+  /// Profiles that say nothing here yet.
+  template <class Other>
+  std::string operator()(const Other&) const {
+    return std::string(Other::name);
+  }
+};
+
 std::string profile_text(const std::vector<Profile>& profiles) {
   std::string text;
   for (const Profile& profile : profiles) {
-    text += text.empty() ? "" : ", ";
-    text += std::visit([](const auto& p) { return std::string(p.name); }, profile);
-    if (const auto* height = std::get_if<ExponentialProfile>(&profile)) {
-      text += " in height, by e every " + length_text(height->scale_height);
-    }
+    text += (text.empty() ? "" : ", ") + std::visit(ProfileWords{}, profile);
   }
   return text;
+}
+
+/// The first row of a table of channels.
+std::vector<std::string> heading(const std::string& what, const MediumFile& file) {
+  if (std::holds_alternative<ChannelSpace>(channels_of(file))) return {what, "red", "green", "blue"};
+  const Spectrum nm = wavelengths_of(file.channels);
+  return {what, value_text(nm[0]) + " nm", value_text(nm[1]) + " nm", value_text(nm[2]) + " nm"};
 }
 
 /// A row of a table: what, and one text per channel.
@@ -31,28 +57,28 @@ void add_row(Table& table, const std::string& name, const Spectrum& values, std:
 }
 
 /// The extinction in the other ways in which people and programs state it.
-void print_densities(const Spectrum& extinction, double meters_per_unit) {
+void print_densities(const Spectrum& extinction, const MediumFile& file) {
   Table table;
   const double distance = telling_distance(extinction);
-  table.add({"the same extinction, said otherwise", "red", "green", "blue"});
+  table.add(heading("the same extinction, said otherwise", file));
   add_row(table, "half of the light is gone after", Spectrum::grey(std::log(2.0)) / extinction, length_text);
   add_row(table, "90 % of the light is gone after", Spectrum::grey(std::log(10.0)) / extinction, length_text);
   add_row(table, "transmittance of " + length_text(distance), exp(-distance * extinction), value_text);
   add_row(table, "optical depth of " + length_text(distance), distance * extinction, value_text);
   add_row(table, "mass, if a gram blocks 1 m^2 [g/m^3]", extinction, value_text);
-  if (meters_per_unit != 1.0) {
-    add_row(table, "extinction per unit of " + length_text(meters_per_unit), extinction * meters_per_unit, value_text);
+  if (const double unit = file.meters_per_unit; unit != 1.0) {
+    add_row(table, "extinction per unit of " + length_text(unit), extinction * unit, value_text);
   }
   std::cout << '\n' << table.text();
 }
 
-void print_table(const MediumSummary& medium, double meters_per_unit) {
+void print_table(const MediumSummary& medium, const MediumFile& file) {
   std::cout << (medium.name.empty() ? "(no name)" : printable(medium.name)) << "\n\n";
   Table table;
   const auto row = [&](const std::string& name, const ChannelList& values, std::string (*text_of)(double)) {
     add_row(table, name, Spectrum{values}, text_of);
   };
-  table.add({"at the origin", "red", "green", "blue"});
+  table.add(heading("at the origin", file));
   row("visibility, 5 % contrast", medium.visibility_5, length_text);
   row("visibility, 2 % contrast", medium.visibility_2, length_text);
   row("mean free path", medium.mean_free_path, length_text);
@@ -62,7 +88,7 @@ void print_table(const MediumSummary& medium, double meters_per_unit) {
   row("scattering [1/m]", medium.scattering, value_text);
   row("absorption [1/m]", medium.absorption, value_text);
   std::cout << table.text();
-  if (largest(Spectrum{medium.extinction}) > 0.0) print_densities(Spectrum{medium.extinction}, meters_per_unit);
+  if (largest(Spectrum{medium.extinction}) > 0.0) print_densities(Spectrum{medium.extinction}, file);
   if (medium.exaggeration != 1.0) {
     std::cout << "\nThe background is exaggerated by a factor of " << value_text(medium.exaggeration) << ".\n";
   }
@@ -98,7 +124,7 @@ void show(const ShowOptions& options) {
   if (options.json) {
     std::cout << pretty(written(summary));
   } else {
-    print_table(summary, file.meters_per_unit);
+    print_table(summary, file);
   }
 }
 

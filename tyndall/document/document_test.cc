@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <set>
 
 #include "tests/shared_folder.h"
 #include "tyndall/artist/random_dials_test.h"
@@ -203,6 +204,31 @@ TEST(MediumFile, WrittenAndReadAgainIsTheSameFile) {
     ASSERT_EQ(text, medium_to_json(again));
     expect_same_medium(compile(file), compile(again), 0.0);
   }
+}
+
+TEST(MediumFile, EveryModelDensityAndKindOfAirIsReadBackAsWritten) {
+  // Walks the lists; a model that the random media do not make would be found here.
+  Dice dice(24);
+  std::set<std::size_t> models, densities, airs, kinds;
+  for (int i = 0; i < 3000; ++i) {
+    MediumFile file;
+    static_cast<MediumDials&>(file) = dice.medium();
+    if (file.conditions) models.insert(file.conditions->index());
+    for (const StatedSpecies& s : file.species) {
+      if (s.density) densities.insert(s.density->index());
+    }
+    if (file.background) airs.insert(static_cast<std::size_t>(file.background->air));
+    if (const auto* m = file.conditions ? std::get_if<Measured>(&*file.conditions) : nullptr) {
+      kinds.insert(static_cast<std::size_t>(m->air));
+    }
+    const MediumFile again = medium_from_json(medium_to_json(file), "t");
+    ASSERT_TRUE(same(file, again));
+    expect_same_medium(compile(file), compile(again), 0.0);
+  }
+  EXPECT_EQ(models.size(), std::variant_size_v<Conditions>);
+  EXPECT_EQ(densities.size(), std::variant_size_v<Density>);
+  EXPECT_EQ(airs.size(), words_of(Air{}).size());
+  EXPECT_EQ(kinds.size(), words_of(Particles{}).size());
 }
 
 TEST(MediumFile, TheSameMediumInAnotherUnitIsTheSameMedium) {

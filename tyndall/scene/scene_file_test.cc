@@ -367,5 +367,19 @@ TEST(SceneFile, MixedMeaningsOfChannelsAreWarnedAbout) {
   EXPECT_NE(s.warnings[0].find("channels"), std::string::npos);
 }
 
+TEST(SceneFile, MediaOutsideNatureAreWarnedAboutOnceWithTheirPlace) {
+  const Files files;
+  files.folder.put("odd.medium.json", R"({"format": "tyndall-medium/1", "background": {"exaggeration": 3},
+    "species": [{"scattering": 1}]})");
+  json scene = whole();
+  scene["volumes"][0]["medium"] = scene["volumes"][1]["medium"] = "odd.medium.json";
+  scene["medium"] = {{"background", {{"air", "note"}, {"exaggeration", 2}}}};
+  const Scene s = files.read(scene);
+  ASSERT_EQ(s.warnings.size(), 2U);
+  EXPECT_NE(s.warnings[0].find("scene.json:/medium/background/exaggeration: found"), std::string::npos)
+      << s.warnings[0];
+  EXPECT_NE(s.warnings[1].find("odd.medium.json:/background/exaggeration: found"), std::string::npos) << s.warnings[1];
+}
+
 }  // namespace
 }  // namespace tyndall
