@@ -11,6 +11,7 @@ library only.
 import json
 import math
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -294,6 +295,60 @@ def phases(bench, truth):
     return rows
 
 
+def air_and_models(bench, truth):
+    """Rows of what media say: air, visibility, the note's w, fog of a water content."""
+
+    def show(medium):
+        return bench.run("show", bench.write("m.medium.json", {"format": "tyndall-medium/1", **medium}), "--json")
+
+    def worst(pairs):
+        return "%.1e" % max(abs(got / expected - 1) for got, expected in pairs)
+
+    air = []
+    for item in truth["rayleigh_air"]["items"]:
+        if "lambda_um" in item:
+            nm = 1e3 * item["lambda_um"]
+            shown = show({"channels": {"wavelengths_nm": [nm, nm, nm]}, "background": {"air": "standard"}})
+            air.append((shown["scattering"][1], item["beta_m-1"]))
+    visibility = []
+    for item in truth["visibility"]["items"]:
+        if "V_m" in item:
+            shown = show({"species": [{"density": {"visibility": item["V_m"], "contrast": item["eps"]}}]})
+            visibility.append((shown["extinction"][1], item["sigma"]))
+    blend = []
+    for item in truth["seed_w_blend"]["items"]:
+        shown = show({"conditions": {"model": "simple", "w": item["w"], "thickness": 1}})
+        blend += [(1 + shown["extinction"][1], 1 + item["sum"])]
+        blend += [] if item["g_eff"] is None else [(shown["mean_cosine"][1], item["g_eff"])]
+    thick, cosine, share = [], [], []
+    for item in truth["polydispersions"]["items"]:
+        size = re.match(r"fog.* al=([\d.]+) b=([\d.]+) N=([\d.]+)", item["name"])
+        if not size:
+            continue
+        alpha, b, number = map(float, size.groups())
+        mean_cube = math.gamma(alpha + 4) / math.gamma(alpha + 1) / b**3
+        nm = 1e3 * item["lambda_um"]
+        shown = show({"channels": {"wavelengths_nm": [nm, nm, nm]},
+                      "conditions": {"model": "measured", "air": "fog", "droplet_diameter": 2 * item["r_eff_um"],
+                                     "liquid_water_content": number * 4 / 3 * math.pi * mean_cube * 1e-6}})
+        thick.append((shown["extinction"][1], number * item["C_ext_um2"] * 1e-6))
+        cosine.append((shown["mean_cosine"][1], item["g"]))
+        share.append((shown["absorption"][1] / shown["extinction"][1], 1 - item["albedo"]))
+    return ["| rayleigh_air: standard air, scattering | %d | %s |" % (len(air), worst(air)),
+            "| visibility: extinction | %d | %s |" % (len(visibility), worst(visibility)),
+            "| seed_w_blend: 1 + extinction, mean cosine | %d | %s |" % (len(blend), worst(blend)),
+            "| polydispersions: fog of a water content, extinction | %d | %s |" % (len(thick), worst(thick)),
+            "| the same, mean cosine | %d | %s |" % (len(cosine), worst(cosine)),
+            "| the same, share that is absorbed | %d | %s |" % (len(share), worst(share))]
+
+
+def air_section(bench, truth):
+    return ["## Air, visibility and models: `tyndall show`", "",
+            "| category | values | worst relative error |", "|---|---|---|", *air_and_models(bench, truth), "",
+            "The last three hold a model against Mie's theory integrated over the sizes of Shettle and Fenn's fogs: one effective diameter",
+            "for a distribution, a fitted mean cosine, rays for absorption (and Hale and Querry's index where the truth rounds it)."]
+
+
 def instruction_sets():
     """(name in tables, -march) of what this machine can run."""
     with open("/proc/cpuinfo", encoding="utf-8") as file:
@@ -382,6 +437,7 @@ def main():
             "## Phase functions: `tyndall phase`", "",
             "| law | worst relative error of p at 11 angles | worst absolute error of chi_0 to chi_8 |", "|---|---|---|", *phases(bench, truth), "",
             "Angles reach the program as cosines, so the error of a forward peak is that of a rounded cosine.", "",
+            *air_section(bench, truth), "",
             "## Multiple scattering: `tyndall slab`, %d paths" % PATHS, "",
             "z is (estimate - truth) / standard error.", "", *head, *slabs(bench, truth), "",
             "## Single scattering: `tyndall probe`", "",

@@ -13,6 +13,7 @@
 #include "tyndall/artist/remark.h"
 #include "tyndall/artist/standard_air.h"
 #include "tyndall/artist/stated_species.h"
+#include "tyndall/artist/surroundings.h"
 
 namespace tyndall {
 
@@ -63,7 +64,7 @@ inline Spectrum air_scattering(Air air, const Spectrum& wavelengths_nm) {
 /// The law of a kind of air. Standard air is depolarised as its King factor in the green channel says (0.0284 at 550
 /// nm); between 440 and 680 nm its law differs from that by less than 0.05 %.
 inline Rayleigh<double> air_law(Air air, const Spectrum& wavelengths_nm) {
-  return {air == Air::standard ? depolarisation_of(king_factor(wavelengths_nm[1])) : 0.0};
+  return {air == Air::standard ? depolarisation_of(king_factor(wavelengths_nm[visibility_channel])) : 0.0};
 }
 
 /// Adds the background's species, air first, then ozone; those whose coefficients are zero are left out. Both are as

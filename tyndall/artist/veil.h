@@ -7,6 +7,7 @@
 #include "tyndall/artist/remark.h"
 #include "tyndall/artist/standard_air.h"
 #include "tyndall/artist/stated_species.h"
+#include "tyndall/artist/surroundings.h"
 
 namespace tyndall {
 
@@ -31,7 +32,7 @@ inline void compile(const std::optional<Veil>& veil, const std::optional<Profile
 inline void remark_on_thickness(const Density& thickness, const std::string& field, const Remarks& remarks) {
   const auto* stated = std::get_if<Visibility>(&thickness);
   if (stated == nullptr) return;
-  const double metres = stated->visibility[1], farthest = farthest_visibility(stated->contrast);
+  const double metres = stated->visibility[visibility_channel], farthest = farthest_visibility(stated->contrast);
   if (metres > farthest) {
     remarks.add(field + "/visibility", "a visibility of " + short_number(metres) + " m",
                 "at most " + short_number(farthest) + " m, through air alone at sea level");

@@ -150,5 +150,24 @@ TEST_F(Probe, AnswersMisuseWithExitCode2) {
   }
 }
 
+TEST_F(Probe, AndRenderWarnOfMediaOutsideNatureUnlessQuiet) {
+  json medium = medium_of(1e-3, 0.0, "isotropic");
+  medium["background"] = {{"exaggeration", 3}};
+  const json lamp = {{"type", "point"}, {"position", {0, 2, 0}}, {"intensity", 1}};
+  write("x.scene.json", scene_with(medium, json::array({lamp})).dump());
+  const std::string warning = "warning: x.scene.json:/medium/background/exaggeration: found air exaggerated";
+  const auto times = [&](const std::string& text) {
+    int count = 0;
+    for (auto at = text.find(warning); at != text.npos; at = text.find(warning, at + 1)) ++count;
+    return count;
+  };
+  EXPECT_EQ(times(tyndall("probe x.scene.json --origin 0,0,0 --direction 1,0,0").err), 1);
+  const std::string render = "render x.scene.json --size 8x8 --spp 1 -o x.png";
+  EXPECT_EQ(times(tyndall(render).err), 1);
+  const tests::Outcome quiet = tyndall(render + " --quiet");
+  EXPECT_EQ(quiet.code, 0);
+  EXPECT_EQ(quiet.err, "");
+}
+
 }  // namespace
 }  // namespace tyndall

@@ -425,6 +425,26 @@ TEST(Acceptance, TheNotesWAgrees) {
   }
 }
 
+TEST(Acceptance, StandardAirAgrees) {
+  TYNDALL_NEEDS_SHARED_FILE(truth, "acceptance/public.json");
+  const Json all = Json::parse(std::ifstream(truth));
+  int checked = 0;
+  for (const Json& item : all.at("rayleigh_air").at("items")) {
+    if (!item.contains("lambda_um")) continue;
+    const double nm = 1e3 * item.at("lambda_um").get<double>();
+    const auto near = [](double got, double expected) { EXPECT_NEAR(got, expected, 1e-7 * expected); };
+    near(air_refractivity(nm), item.at("n-1"));
+    near(king_factor(nm), item.at("king"));
+    near(standard_air_scattering(nm), item.at("beta_m-1"));
+    MediumFile file;
+    file.background.emplace().air = Air::standard;
+    file.channels = ChannelWavelengths{{nm, nm, nm}};
+    near(summary_of(compile(file)).scattering[1], item.at("beta_m-1"));
+    ++checked;
+  }
+  EXPECT_GE(checked, 5);
+}
+
 TEST(Acceptance, VisibilityAgrees) {
   TYNDALL_NEEDS_SHARED_FILE(truth, "acceptance/public.json");
   const Json all = Json::parse(std::ifstream(truth));
