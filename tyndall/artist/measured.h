@@ -13,6 +13,7 @@
 #include "tyndall/artist/standard_air.h"
 #include "tyndall/artist/stated_species.h"
 #include "tyndall/artist/surroundings.h"
+#include "tyndall/number/demand.h"
 
 namespace tyndall {
 
@@ -76,6 +77,16 @@ inline std::optional<Objection> objection_to(const Measured& m) {
   return std::nullopt;
 }
 
+constexpr auto demands_of(const Measured&) {
+  return std::array{some_of("visibility", "extinction", "turbidity", "liquid_water_content"),
+                    not_both("visibility", "extinction"),
+                    not_both("visibility", "turbidity"),
+                    not_both("visibility", "liquid_water_content"),
+                    not_both("extinction", "turbidity"),
+                    not_both("extinction", "liquid_water_content"),
+                    not_both("turbidity", "liquid_water_content")};
+}
+
 /// Scale height of haze [m] where no exponential profile states one (Bruneton & Neyret 2008).
 inline constexpr double usual_haze_height = 1200.0;
 
@@ -110,7 +121,7 @@ inline std::optional<Objection> compile(const Measured& m, const Surroundings& o
                          " m, when background and other species alone leave " + short_number(farthest) + " m",
                      "a shorter visibility, or less of them"};
   }
-  const double here = m.profile ? factor(*m.profile, Vector{}) : 1.0;
+  const double here = m.profile ? mean_factor(*m.profile, Vector{}) : 1.0;
   if (!(here > 0.0) || !std::isfinite(here)) {
     return Objection{"profile", "a profile that leaves nothing at the origin, where the air was measured",
                      "one that covers the origin"};

@@ -29,7 +29,8 @@ Density any_density(double low, double high) {
 std::optional<Profile> any_profile() {
   const double height = *magnitude(1.0, 1e4);
   return *element<std::optional<Profile>>(std::nullopt, ConstantProfile{}, ExponentialProfile{height, 0.0},
-                                          ExponentialProfile{height, -0.5 * height}, SphereProfile{{}, height});
+                                          ExponentialProfile{height, -0.5 * height}, SphereProfile{{}, height},
+                                          NoiseProfile{height, 4, 0.5, 0, {}});
 }
 
 std::optional<Background> any_background() {

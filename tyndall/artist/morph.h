@@ -34,7 +34,7 @@ inline double weight_at_origin(const std::optional<Profile>& profile) {
 
 /// Whether a profile has nothing at the origin.
 inline bool is_elsewhere(const std::optional<Profile>& profile) {
-  return profile && !(factor(*profile, Vector{}) > 0.0);
+  return profile && !(mean_factor(*profile, Vector{}) > 0.0);
 }
 
 inline Spectrum extinction_of(const StatedSpecies& s) { return *s.scattering + *s.absorption; }
@@ -51,7 +51,7 @@ Spectrum total_of(const std::vector<StatedSpecies>& species, const Counts& count
 
 inline Spectrum air_at_origin(const MediumDials& dials) {
   Spectrum total;
-  for (const Species& s : air_of(dials)) total += factor(s, Vector{}) * s.extinction();
+  for (const Species& s : air_of(dials)) total += mean_factor(s, Vector{}) * s.extinction();
   return total;
 }
 

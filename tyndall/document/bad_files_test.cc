@@ -80,8 +80,6 @@ const tests::BadFile bad_files[] = {
     {"thickness_unknown_form", 6, "/conditions/thickness/visibilty", "visibilty", "did you mean \"visibility\"?"},
     {"too_deep", 4, "/species/0/0", "more than 64 levels", "at most 64", true},
     {"trailing_comma", 4, "", "not JSON", "no comma after the last"},
-    {"too_deep", 4, "/species/0/0", "more than 64 levels", "at most 64"},
-    {"trailing_comma", 4, "", "not JSON", "JSON"},
     {"transmittance_without_distance", 4, "/species/0/density", "no key \"distance\"", "above 0 [m]"},
     {"transmittance_zero", 4, "/species/0/density/transmittance/1", "number 0", "above 0 and at most 1"},
     {"truncated", 3, "", "missing closing quote", "JSON"},
