@@ -59,14 +59,14 @@ inline void airlight_moments(double u, double v0, double v1, std::span<Bounded> 
   }
 }
 
-/// The highest k of J_k that a lobe asks for; 0 when it has no closed form (Henyey-Greenstein: p goes as
+/// The highest k of J_k that a lobe asks for; 0 when it has no closed form (Henyey-Greenstein, say: p goes as
 /// (1 + v^2)^(3/2) / ((1 + g)^2 v^2 + (1 - g)^2)^(3/2)).
 inline int airlight_order(const Lobe<double>& lobe) {
   struct Order {
     int operator()(const IsotropicLobe<double>&) const { return 1; }
     int operator()(const RayleighLobe<double>&) const { return 3; }
-    int operator()(const HenyeyGreensteinLobe<double>&) const { return 0; }
     int operator()(const PowerLobe<double>& l) const { return l.n + 1; }
+    int operator()(const auto&) const { return 0; }
   };
   return std::visit(Order{}, lobe);
 }
@@ -82,10 +82,10 @@ inline Bounded airlight_of(const Lobe<double>& lobe, std::span<const Bounded> mo
       const double b = l.density(Deflection<double>::from_mu(1.0)) - a;
       return (a + b) * j[0] + 4.0 * b * (j[2] - j[1]);
     }
-    Bounded operator()(const HenyeyGreensteinLobe<double>&) const { return {0.0, infinity}; }
     Bounded operator()(const PowerLobe<double>& l) const {
       return (l.n + 1.0) * inverse_four_pi<double>() * j[static_cast<std::size_t>(l.n)];
     }
+    Bounded operator()(const auto&) const { return {0.0, infinity}; }
   };
   return std::visit(Value{moments}, lobe);
 }

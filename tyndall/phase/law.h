@@ -2,12 +2,19 @@
 // The list of laws (phase functions), and what every law offers.
 #include <variant>
 
+#include "tyndall/phase/cornette_shanks.h"
+#include "tyndall/phase/draine.h"
+#include "tyndall/phase/droplet.h"
+#include "tyndall/phase/fournier_forand.h"
 #include "tyndall/phase/henyey_greenstein.h"
 #include "tyndall/phase/isotropic.h"
+#include "tyndall/phase/lambert_sphere.h"
 #include "tyndall/phase/mie_hazy.h"
 #include "tyndall/phase/mie_murky.h"
 #include "tyndall/phase/mixture.h"
+#include "tyndall/phase/nishita_murky.h"
 #include "tyndall/phase/rayleigh.h"
+#include "tyndall/phase/schlick.h"
 #include "tyndall/phase/sum_inverse.h"
 
 namespace tyndall {
@@ -19,6 +26,13 @@ using Law = std::variant<Isotropic<T>,         //
                          HenyeyGreenstein<T>,  //
                          MieHazy<T>,           //
                          MieMurky<T>,          //
+                         NishitaMurky<T>,      //
+                         Schlick<T>,           //
+                         CornetteShanks<T>,    //
+                         Draine<T>,            //
+                         Droplet<T>,           //
+                         LambertSphere<T>,     //
+                         FournierForand<T>,    //
                          Mixture<T>>;
 
 template <class T>

@@ -103,6 +103,17 @@ inline std::string words(const Law<double>& law) {
       law);
 }
 
+/// How far float may be from double, relatively: a millionth, but for Fournier and Forand's law, which takes powers of
+/// numbers over 18 decades.
+inline double float_error(const Law<double>& law) {
+  if (std::holds_alternative<FournierForand<double>>(law)) return 1e-5;
+  double worst = 1e-6;
+  if (const auto* mixture = std::get_if<Mixture<double>>(&law)) {
+    for (const auto& part : mixture->parts) worst = std::max(worst, float_error(part.phase));
+  }
+  return worst;
+}
+
 /// Deflections from straight on to straight back, the peaks resolved.
 inline std::vector<Deflection<double>> test_deflections() {
   std::vector<Deflection<double>> out{Deflection<double>::from_ends(0.0, 2.0), Deflection<double>::from_ends(2.0, 0.0)};

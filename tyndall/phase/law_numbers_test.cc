@@ -2,6 +2,7 @@
 // Printed and executed: export/law_functions_test.cc.)
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -31,13 +32,14 @@ TYPED_TEST(EachLawIn, FloatEqualsDoubleToAMillionth) {
     for (const Deflection<double>& d : test_deflections()) {
       const Deflection<float> rounded = deflection_as<float>(d);
       const auto near = [&](float found, double expected, const char* what) {
-        EXPECT_NEAR(static_cast<double>(found), expected, 1e-6 * expected) << what << " at 1 - mu = " << d.one_minus;
+        EXPECT_NEAR(static_cast<double>(found), expected, float_error(law) * expected)
+            << what << " at 1 - mu = " << d.one_minus;
       };
       near(density(lobes, rounded), density(law, d), "density");
       near(cdf(lobes, rounded), cdf(law, d), "cdf");
       near(survival(lobes, rounded), survival(law, d), "survival");
     }
-    for (int l = 0; l <= 8; ++l) EXPECT_NEAR(static_cast<double>(moment(lobes, l)), moment(law, l), 1e-6);
+    for (int l = 0; l <= 8; ++l) EXPECT_NEAR(static_cast<double>(moment(lobes, l)), moment(law, l), float_error(law));
   });
 }
 
@@ -51,9 +53,11 @@ TYPED_TEST(EachLawIn, FloatSamplesWhatDoubleSamples) {
       const Deflection<float> found = sample(in_float, static_cast<float>(xi));
       const double slope = std::numbers::pi * density(law, d) * d.one_minus * d.one_plus;
       const double condition = xi > 0.0 && xi < 1.0 ? std::max(1.0, xi * (1.0 - xi) / slope) : 1.0;
-      EXPECT_NEAR(static_cast<double>(found.mu), d.mu, 1e-6 * condition) << "xi = " << xi;
-      EXPECT_NEAR(static_cast<double>(found.one_minus), d.one_minus, 1e-6 * condition * d.one_minus) << "xi = " << xi;
-      EXPECT_NEAR(static_cast<double>(found.one_plus), d.one_plus, 1e-6 * condition * d.one_plus) << "xi = " << xi;
+      EXPECT_NEAR(static_cast<double>(found.mu), d.mu, float_error(law) * condition) << "xi = " << xi;
+      EXPECT_NEAR(static_cast<double>(found.one_minus), d.one_minus, float_error(law) * condition * d.one_minus)
+          << "xi = " << xi;
+      EXPECT_NEAR(static_cast<double>(found.one_plus), d.one_plus, float_error(law) * condition * d.one_plus)
+          << "xi = " << xi;
     }
   });
 }
@@ -107,7 +111,8 @@ TYPED_TEST(EachLawIn, DualDifferentiatesByEachParameter) {
         return everything(shifted, d, xi);
       };
       // Near the end of a range the step must stay inside it.
-      const double h = 1e-5 * std::max(1e-5, std::min(1.0, 1.0 - std::fabs(values[k])));
+      const double size = std::fabs(values[k]);
+      const double h = 1e-5 * (size <= 1.0 ? std::max(1e-5, 1.0 - size) : 1.0);
       if (values[k] - h < 0.0 && std::holds_alternative<Rayleigh<double>>(law)) continue;  // an end: no centre
       if (names[k].find("weight") == 0 && values[k] < h) continue;
       const auto up = moved(h), down = moved(-h);
@@ -148,6 +153,16 @@ TEST(HenyeyGreensteinInDual, HasItsClosedDerivative) {
   }
 }
 
+// Laws whose text has more terms in double than in float.
+bool has_series(const Law<double>& law) {
+  if (const auto* mixture = std::get_if<Mixture<double>>(&law)) {
+    return std::any_of(mixture->parts.begin(), mixture->parts.end(),
+                       [](const auto& part) { return has_series(part.phase); });
+  }
+  return std::holds_alternative<Schlick<double>>(law) || std::holds_alternative<LambertSphere<double>>(law) ||
+         std::holds_alternative<FournierForand<double>>(law);
+}
+
 TYPED_TEST(EachLawIn, SymbolRecordsTheWholeLaw) {
   this->on_cases([](const Law<double>& law) {
     std::map<std::string, double> inputs;
@@ -169,8 +184,8 @@ TYPED_TEST(EachLawIn, SymbolRecordsTheWholeLaw) {
       const SymbolValue value(inputs);
       const auto expected = everything(law, d, xi);
       for (const auto& [what, symbol] : symbols) {
-        // A recorded sampler iterates as far as float needs, here in double.
-        const double tolerance = what.find("sampled") == 0 ? 1e-9 : 1e-13;
+        // A recorded sampler iterates as far as float needs, here in double; so do series.
+        const double tolerance = has_series(law) ? 3e-7 : what.find("sampled") == 0 ? 1e-9 : 1e-13;
         const double exact = expected.at(what);
         EXPECT_NEAR(value(symbol), exact, tolerance * std::max(std::fabs(exact), what == "sampled mu" ? 1.0 : 0.0))
             << what << ", xi = " << xi;

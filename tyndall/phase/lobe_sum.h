@@ -7,10 +7,14 @@
 #include <variant>
 #include <vector>
 
+#include "tyndall/phase/draine_lobe.h"
+#include "tyndall/phase/fournier_forand_lobe.h"
 #include "tyndall/phase/henyey_greenstein_lobe.h"
 #include "tyndall/phase/isotropic_lobe.h"
+#include "tyndall/phase/lambert_sphere_lobe.h"
 #include "tyndall/phase/power_lobe.h"
 #include "tyndall/phase/rayleigh_lobe.h"
+#include "tyndall/phase/schlick_lobe.h"
 
 namespace tyndall {
 
@@ -18,7 +22,14 @@ namespace tyndall {
 /// sample (the exact inverse of cdf), moment(l); and members(), the pointers to its parameters, at most
 /// most_lobe_parameters, from which conversion, comparison and the records of kernels follow (lobe_record.h).
 template <class T>
-using Lobe = std::variant<IsotropicLobe<T>, RayleighLobe<T>, HenyeyGreensteinLobe<T>, PowerLobe<T>>;
+using Lobe = std::variant<IsotropicLobe<T>,         //
+                          RayleighLobe<T>,          //
+                          HenyeyGreensteinLobe<T>,  //
+                          PowerLobe<T>,             //
+                          SchlickLobe<T>,           //
+                          DraineLobe<T>,            //
+                          LambertSphereLobe<T>,     //
+                          FournierForandLobe<T>>;
 
 template <class T>
 struct WeightedLobe {

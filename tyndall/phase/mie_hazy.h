@@ -3,7 +3,7 @@
 #include <string_view>
 #include <tuple>
 
-#include "tyndall/phase/half_isotropic.h"
+#include "tyndall/phase/flat_and_power.h"
 
 namespace tyndall {
 
@@ -15,8 +15,8 @@ struct MieHazy {
   static constexpr std::string_view text = "Light haze: half isotropic, half a broad forward lobe.";
   static constexpr int exponent = 8;
   static constexpr auto fields() { return std::tuple<>{}; }
-  LobeSum<T> lower() const { return half_isotropic_lobes<T>(exponent); }
-  Deflection<T> sample(const T& xi) const { return half_isotropic_sample<T>(exponent, xi); }
+  LobeSum<T> lower() const { return flat_and_power_lobes<T>(0.5, exponent); }
+  Deflection<T> sample(const T& xi) const { return flat_and_power_sample<T>(0.5, exponent, xi); }
 };
 
 }  // namespace tyndall

@@ -3,7 +3,9 @@
 #include "tyndall/phase/phase_kernel.h"
 
 #include "tyndall/number/lanes.h"
-#include "tyndall/phase/half_isotropic.h"
+#include "tyndall/phase/mie_hazy.h"
+#include "tyndall/phase/mie_murky.h"
+#include "tyndall/phase/nishita_murky.h"
 #include "tyndall/phase/sum_inverse.h"
 
 namespace tyndall {
@@ -12,9 +14,15 @@ namespace TYNDALL_KERNEL_NAMESPACE {
 constexpr std::size_t width = Lanes::size;
 
 // The hazy and murky laws have an inverse of their own, many times quicker than the general one.
-bool is_half_isotropic(const PhaseKernelCall& call) {
-  return call.lobe_count == 2 && call.lobes[0].kind == lobe_kind<IsotropicLobe>() &&
-         call.lobes[1].kind == lobe_kind<PowerLobe>() && call.lobes[0].weight == 0.5F && call.lobes[1].weight == 0.5F;
+template <template <class> class L>
+bool is_law_of(const PhaseKernelCall& call) {
+  const LobeSum<float> lobes = L<float>{}.lower();
+  if (call.lobe_count != static_cast<int>(lobes.size())) return false;
+  for (std::size_t k = 0; k < lobes.size(); ++k) {
+    const LobeRecord own = lobe_record(lobes[k]), &given = call.lobes[k];
+    if (given.kind != own.kind || given.weight != own.weight || given.parameters[0] != own.parameters[0]) return false;
+  }
+  return true;
 }
 
 // Calls block(first, lanes) for each full register and once more for what is left over.
@@ -74,16 +82,12 @@ void sample_lobes(const PhaseKernelCall& call) {
   if (call.lobe_count == 1) {
     std::visit([&](const auto& lobe) { sample_all(call, [&](const Lanes& xi) { return lobe.sample(xi); }); },
                lobe_of<Lanes>(call.lobes[0]));
-  } else if (is_half_isotropic(call)) {
-    const int n = static_cast<int>(call.lobes[1].parameters[0]);
-    // The exponents of the named laws as constants, so that their powers unroll.
-    if (n == 8) {
-      sample_all(call, [](const Lanes& xi) { return half_isotropic_sample<Lanes>(8, xi); });
-    } else if (n == 32) {
-      sample_all(call, [](const Lanes& xi) { return half_isotropic_sample<Lanes>(32, xi); });
-    } else {
-      sample_all(call, [n](const Lanes& xi) { return half_isotropic_sample<Lanes>(n, xi); });
-    }
+  } else if (is_law_of<MieHazy>(call)) {
+    sample_all(call, [](const Lanes& xi) { return MieHazy<Lanes>{}.sample(xi); });
+  } else if (is_law_of<MieMurky>(call)) {
+    sample_all(call, [](const Lanes& xi) { return MieMurky<Lanes>{}.sample(xi); });
+  } else if (is_law_of<NishitaMurky>(call)) {
+    sample_all(call, [](const Lanes& xi) { return NishitaMurky<Lanes>{}.sample(xi); });
   } else {
     LobeSum<Lanes> lobes;
     for (int k = 0; k < call.lobe_count; ++k)

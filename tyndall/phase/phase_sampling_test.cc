@@ -79,9 +79,13 @@ TYPED_TEST_SUITE(SamplesOf, EveryLaw, LawNames);
 
 // False alarm: once in a million per case if xi were redrawn; the seed is fixed.
 TYPED_TEST(SamplesOf, FollowTheDensity) {
+  // Laws that are inverted step by step take microseconds a sample: their later cases get fewer.
+  constexpr bool slow = std::is_same_v<TypeParam, FournierForand<double>> ||
+                        std::is_same_v<TypeParam, Droplet<double>> || std::is_same_v<TypeParam, Mixture<double>>;
+  int cases = 0;
   for (const Law<double>& law : law_cases<TypeParam>()) {
     SCOPED_TRACE(words(law));
-    expect_chi_square(law, 1000000);
+    expect_chi_square(law, slow && ++cases > 3 ? 100000 : 1000000);
   }
 }
 

@@ -53,13 +53,13 @@ TYPED_TEST(EachLaw, CumulatesItsDensity) {
       const double slope = 2.0 * std::numbers::pi * density(law, d);
       EXPECT_NEAR(cdf(by_mu, moving).derivative[0], slope, 1e-11 * slope + 1e-15);
       EXPECT_NEAR(survival(by_mu, moving).derivative[0], -slope, 1e-11 * slope + 1e-15);
-      EXPECT_NEAR(cdf(law, d) + survival(law, d), 1.0, 1e-14);
+      EXPECT_NEAR(cdf(law, d) + survival(law, d), 1.0, 3e-14);
     }
     const auto back = Deflection<double>::from_ends(2.0, 0.0), front = Deflection<double>::from_ends(0.0, 2.0);
     EXPECT_EQ(cdf(law, back), 0.0);
     EXPECT_EQ(survival(law, front), 0.0);
-    EXPECT_NEAR(cdf(law, front), 1.0, 1e-14);
-    EXPECT_NEAR(survival(law, back), 1.0, 1e-14);
+    EXPECT_NEAR(cdf(law, front), 1.0, 3e-14);
+    EXPECT_NEAR(survival(law, back), 1.0, 3e-14);
   });
 }
 
@@ -70,8 +70,8 @@ TYPED_TEST(EachLaw, SamplesTheInverseOfItsCumulativeDistribution) {
     for (const double xi : {1e-100, 1e-30, 1e-15, 1.0 - 1e-15}) all.push_back(xi);
     for (const double xi : all) {
       const Deflection<double> d = sample(law, xi);
-      EXPECT_NEAR(cdf(law, d), xi, 2e-14 * xi) << "xi = " << xi;
-      EXPECT_NEAR(survival(law, d), 1.0 - xi, 2e-14 * (1.0 - xi)) << "xi = " << xi;
+      EXPECT_NEAR(cdf(law, d), xi, 3e-14 * xi) << "xi = " << xi;
+      EXPECT_NEAR(survival(law, d), 1.0 - xi, 3e-14 * (1.0 - xi)) << "xi = " << xi;
       EXPECT_NEAR(d.one_minus + d.one_plus, 2.0, 4e-15);
       EXPECT_NEAR(d.mu, 1.0 - d.one_minus, 2e-15);
     }

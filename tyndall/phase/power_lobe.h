@@ -44,7 +44,7 @@ struct PowerLobe {
 
   /// u = xi^(1/(n+1)); 1 - u comes from expm1 so that the peak keeps its digits. xi = 0 gives mu = -1.
   Deflection<T> sample(const T& xi) const {
-    const T exponent = named("exponent", log(max(xi, T(1e-37))) / T(n + 1.0));
+    const T exponent = named("exponent", logarithm(xi, T(1.0) - xi) / T(n + 1.0));
     const T u = exp(exponent), v = -expm1(exponent);
     return Deflection<T>::from_halves(select(xi > T(0.0), u, T(0.0)), select(xi > T(0.0), v, T(1.0)));
   }
@@ -57,6 +57,14 @@ struct PowerLobe {
   }
 
  private:
+  /// ln xi from y = 1 - xi too: near 1 as -2 artanh(y / (2 - y)), because the logarithms of shaders keep no digits
+  /// there.
+  static T logarithm(const T& xi, const T& y) {
+    const T z = named("z", y / (T(2.0) - y)), z2 = named("z2", z * z);
+    T series = T(is_double<T> ? 1.0 / 21.0 : 1.0 / 11.0);
+    for (int odd = is_double<T> ? 19 : 9; odd > 1; odd -= 2) series = fma(series, z2, T(1.0 / odd));
+    return select(y < T(0.25), T(-2.0) * fma(series * z2, z, z), log(max(xi, T(1e-37))));
+  }
   static T u_of(const Deflection<T>& d) { return named("u", T(0.5) * d.one_plus); }
 };
 
