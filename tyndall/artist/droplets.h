@@ -58,30 +58,15 @@ inline double extinction_of_liquid_water(double grams_per_cubic_metre, double di
          (4.0 * water * diameter_um * 0.5e-6);
 }
 
-inline constexpr double smallest_fog_drop = 1.5, largest_fog_drop = 50.0;  // [um], what the fit below covers
-
-/// Mean cosine of the fit to Mie scattering by fog of a droplet diameter [um], smallest_fog_drop to largest_fog_drop:
-/// (1 - w) Henyey-Greenstein + w Draine (Jendersie & d'Eon 2023, eqs 4 to 11).
-inline double fog_mean_cosine(double diameter_um) {
-  const double d = diameter_um, l = std::log(d);
-  const bool large = d >= 5.0;
-  const double g_hg = large ? std::exp(-0.0990567 / (d - 1.67154)) : 0.0604931 * std::log(l) + 0.940256;
-  const double g_d =
-      large ? std::exp(-2.20679 / (d + 3.91029) - 0.428934) : 0.500411 - 0.081287 / (-2.0 * l + std::tan(l) + 1.27551);
-  const double alpha = large ? std::exp(3.62489 - 8.29288 / (d + 5.52825)) : 7.30354 * l + 6.31675;
-  const double w = large ? std::exp(-0.599085 / (d - 0.641583) - 0.665888)
-                         : 0.026914 * (l - std::cos(5.68947 * (std::log(l) - 0.0292149))) + 0.376475;
-  const double draine =
-      g_d * (1.0 + alpha * (3.0 + 2.0 * g_d * g_d) / 5.0) / (1.0 + alpha * (1.0 + 2.0 * g_d * g_d) / 3.0);
-  return (1.0 - w) * g_hg + w * draine;
-}
+/// Diameters of fog's droplets [um] that are sized: the range in which phase/droplet.h follows Mie's theory closely.
+inline constexpr double smallest_fog_drop = 1.5, largest_fog_drop = 50.0;
 
 /// Mean cosine of raindrops: rays through a sphere of n = 1.333 (0.7685) and as much diffraction, which goes straight
 /// on (van de Hulst 1957, chapter 12).
 inline constexpr double rain_mean_cosine = 0.884;
 
 /// The angular law of fog. The one place that chooses it.
-inline Law<double> fog_law(double diameter_um) { return HenyeyGreenstein<double>{fog_mean_cosine(diameter_um)}; }
+inline Law<double> fog_law(double diameter_um) { return Droplet<double>{diameter_um}; }
 /// The angular law of rain.
 inline Law<double> rain_law() { return HenyeyGreenstein<double>{rain_mean_cosine}; }
 

@@ -62,32 +62,25 @@ inline void airlight_moments(double u, double v0, double v1, std::span<Bounded> 
 /// The highest k of J_k that a lobe asks for; 0 when it has no closed form (Henyey-Greenstein, say: p goes as
 /// (1 + v^2)^(3/2) / ((1 + g)^2 v^2 + (1 - g)^2)^(3/2)).
 inline int airlight_order(const Lobe<double>& lobe) {
-  struct Order {
-    int operator()(const IsotropicLobe<double>&) const { return 1; }
-    int operator()(const RayleighLobe<double>&) const { return 3; }
-    int operator()(const PowerLobe<double>& l) const { return l.n + 1; }
-    int operator()(const auto&) const { return 0; }
-  };
-  return std::visit(Order{}, lobe);
+  if (std::holds_alternative<IsotropicLobe<double>>(lobe)) return 1;
+  if (std::holds_alternative<RayleighLobe<double>>(lobe)) return 3;
+  if (const auto* power = std::get_if<PowerLobe<double>>(&lobe)) return power->n + 1;
+  return 0;
 }
 
 /// int p / (1 + v^2) e^.. dv of one lobe from the moments; with q = 1/(1 + v^2), mu = 2 q - 1.
-inline Bounded airlight_of(const Lobe<double>& lobe, std::span<const Bounded> moments) {
-  struct Value {
-    std::span<const Bounded> j;
-    Bounded operator()(const IsotropicLobe<double>&) const { return inverse_four_pi<double>() * j[0]; }
-    Bounded operator()(const RayleighLobe<double>& l) const {
-      // p = A + B mu^2, mu^2 = 1 - 4 q + 4 q^2.
-      const double a = l.density(Deflection<double>::from_mu(0.0));
-      const double b = l.density(Deflection<double>::from_mu(1.0)) - a;
-      return (a + b) * j[0] + 4.0 * b * (j[2] - j[1]);
-    }
-    Bounded operator()(const PowerLobe<double>& l) const {
-      return (l.n + 1.0) * inverse_four_pi<double>() * j[static_cast<std::size_t>(l.n)];
-    }
-    Bounded operator()(const auto&) const { return {0.0, infinity}; }
-  };
-  return std::visit(Value{moments}, lobe);
+inline Bounded airlight_of(const Lobe<double>& lobe, std::span<const Bounded> j) {
+  if (std::holds_alternative<IsotropicLobe<double>>(lobe)) return inverse_four_pi<double>() * j[0];
+  if (const auto* rayleigh = std::get_if<RayleighLobe<double>>(&lobe)) {
+    // p = A + B mu^2, mu^2 = 1 - 4 q + 4 q^2.
+    const double a = rayleigh->density(Deflection<double>::from_mu(0.0));
+    const double b = rayleigh->density(Deflection<double>::from_mu(1.0)) - a;
+    return (a + b) * j[0] + 4.0 * b * (j[2] - j[1]);
+  }
+  if (const auto* power = std::get_if<PowerLobe<double>>(&lobe)) {
+    return (power->n + 1.0) * inverse_four_pi<double>() * j[static_cast<std::size_t>(power->n)];
+  }
+  return {0.0, infinity};
 }
 
 /// As airlight_by_panels with even falloff, in closed form:
