@@ -61,6 +61,7 @@ std::vector<FunctionText> law_functions(std::string_view prefix, const Law<doubl
                    {moment(symbolic.law, l)},
                    "Legendre moment of order " + order + "."});
   }
+  for (FunctionText& function : out) function.prefix = start;
   return out;
 }
 

@@ -199,5 +199,28 @@ TEST(Glsl, LoopsMeanWhatTheyMeanInCpp) {
   }
 }
 
+// Arrays: searched and read where the index differs from run to run; equal ones are written once, others apart.
+TEST(Glsl, ReadsConstantArrays) {
+  const SharedArray knots = constant_array("knots", {-2.0, -0.5, 0.0, 0.1, 0.7, 3.0, 1e6});
+  const SharedArray same = constant_array("knots", knots->values());
+  const SharedArray values = constant_array("knots", {5.0, -1.25, 3e-7, 2.0, 8.0, 1e9, 1.0 / 3.0});
+  const auto text = [&]<class T>(const T& x) -> T {
+    const T i = last_not_above(knots, T(0.0), 5, x);
+    const T below = lookup(same, i), above = lookup(knots, i + T(1.0));
+    return lookup(values, i) + (x - below) / (above - below) * lookup(values, i + T(1.0));
+  };
+  const std::string functions = glsl_function("f", {"x"}, {text(Symbol::input("x"))});
+  EXPECT_EQ(functions.find("const float knots[7] = float[7](-2.0, -0.5, 0.0, 0.1, 0.7, 3.0, 1.0e+06);"), 0U) << functions;
+  EXPECT_NE(functions.find("const float knots_b[7] = float[7](5.0, "), std::string::npos) << functions;
+  EXPECT_EQ(functions.find("knots_c"), std::string::npos) << functions;
+  std::vector<float> given;
+  for (float x = -2.5F; x < 4.0F; x += 0.0625F) given.push_back(x);
+  const std::vector<float> found = machine().run(functions, "  found(0u, f(given(0u)));\n", given, 1, 1);
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    const double expected = text(static_cast<double>(given[i]));
+    EXPECT_NEAR(static_cast<double>(found[i]), expected, 1e-6 * std::fabs(expected)) << given[i];
+  }
+}
+
 }  // namespace
 }  // namespace tyndall
