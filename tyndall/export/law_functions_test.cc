@@ -210,7 +210,8 @@ TEST(Glsl, ReadsConstantArrays) {
     return lookup(values, i) + (x - below) / (above - below) * lookup(values, i + T(1.0));
   };
   const std::string functions = glsl_function("f", {"x"}, {text(Symbol::input("x"))});
-  EXPECT_EQ(functions.find("const float knots[7] = float[7](-2.0, -0.5, 0.0, 0.1, 0.7, 3.0, 1.0e+06);"), 0U) << functions;
+  EXPECT_EQ(functions.find("const float knots[7] = float[7](-2.0, -0.5, 0.0, 0.1, 0.7, 3.0, 1.0e+06);"), 0U)
+      << functions;
   EXPECT_NE(functions.find("const float knots_b[7] = float[7](5.0, "), std::string::npos) << functions;
   EXPECT_EQ(functions.find("knots_c"), std::string::npos) << functions;
   std::vector<float> given;

@@ -67,6 +67,7 @@ inline int airlight_order(const Lobe<double>& lobe) {
     int operator()(const RayleighLobe<double>&) const { return 3; }
     int operator()(const HenyeyGreensteinLobe<double>&) const { return 0; }
     int operator()(const PowerLobe<double>& l) const { return l.n + 1; }
+    int operator()(const TableLobe<double>&) const { return 0; }
   };
   return std::visit(Order{}, lobe);
 }
@@ -83,6 +84,7 @@ inline Bounded airlight_of(const Lobe<double>& lobe, std::span<const Bounded> mo
       return (a + b) * j[0] + 4.0 * b * (j[2] - j[1]);
     }
     Bounded operator()(const HenyeyGreensteinLobe<double>&) const { return {0.0, infinity}; }
+    Bounded operator()(const TableLobe<double>&) const { return {0.0, infinity}; }
     Bounded operator()(const PowerLobe<double>& l) const {
       return (l.n + 1.0) * inverse_four_pi<double>() * j[static_cast<std::size_t>(l.n)];
     }
