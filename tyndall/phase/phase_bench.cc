@@ -113,10 +113,10 @@ void add_law(const std::string& name, const Law<double>& exact) {
 }
 
 // Henyey and Greenstein's law of g = 0.9 at angles in geometric progression: a table's cost is its binary search.
-Tabulated<double> table_of(int count) {
+Tabulated<double> table_of(int knots) {
   Tabulated<double> out;
-  for (int i = 0; i < count; ++i) {
-    const double angle = i == 0 ? 0.0 : i + 1 == count ? 180.0 : 0.1 * std::pow(1800.0, (i - 1.0) / (count - 2.0));
+  for (int i = 0; i < knots; ++i) {
+    const double angle = i == 0 ? 0.0 : i + 1 == knots ? 180.0 : 0.1 * std::pow(1800.0, (i - 1.0) / (knots - 2.0));
     out.angles.push_back(angle);
     const auto d = Deflection<double>::from_angle(angle * std::acos(-1.0) / 180.0);
     out.values.push_back(Spectrum::grey(density(Law<double>(HenyeyGreenstein<double>{0.9}), d)));
