@@ -6,6 +6,7 @@
 #include "tyndall/color/spectrum.h"
 #include "tyndall/geometry/vector.h"
 #include "tyndall/number/described.h"
+#include "tyndall/number/number_file.h"
 
 namespace tyndall {
 
@@ -34,7 +35,8 @@ void for_each_number(T& value, const FieldFacts& facts, const std::string& path,
       for_each_number(value.*field.member, facts_of(field), path + '/' + std::string(field.name), visit);
     });
   } else {
-    static_assert(OneOf<U> || std::is_integral_v<U> || std::is_same_v<U, std::string>, "a type without description");
+    static_assert(OneOf<U> || std::is_integral_v<U> || std::is_same_v<U, std::string> || std::is_same_v<U, NumberFile>,
+                  "a type without description");
   }
 }
 
@@ -63,7 +65,7 @@ std::optional<Objection> unusable_number(const T& value) {
 }
 
 /// Whether two values are made alike: the same alternatives, the same optionals present, lists as long, the same words
-/// and texts. Then their numbers correspond one to one.
+/// and texts, what is whole equal. Then their numbers correspond one to one.
 template <class T>
 bool alike(const T& a, const T& b) {
   if constexpr (std::is_same_v<T, double> || std::is_same_v<T, Spectrum> || std::is_same_v<T, Vector>) {
@@ -81,6 +83,8 @@ bool alike(const T& a, const T& b) {
            std::visit(
                [&](const auto& chosen) { return alike(chosen, std::get<std::remove_cvref_t<decltype(chosen)>>(b)); },
                a);
+  } else if constexpr (Whole<T>) {
+    return a == b;
   } else if constexpr (Described<T>) {
     bool all = true;
     for_each_field<T>([&](const auto& field) { all = all && alike(a.*field.member, b.*field.member); });

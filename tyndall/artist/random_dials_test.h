@@ -66,8 +66,20 @@ class Dice {
         return std::nullopt;
     }
   }
+  /// Knots anywhere, grey or per channel.
+  Tabulated<double> table() {
+    Tabulated<double> out;
+    const bool grey = coin();
+    for (double angle = between(0.0, 20.0); angle < 180.0; angle += magnitude(1.0, 60.0)) {
+      out.angles.push_back(angle);
+      out.values.push_back(grey ? Spectrum::grey(magnitude(0.01, 10.0)) : spectrum(0.01, 10.0));
+    }
+    out.angles.push_back(180.0);
+    out.values.push_back(Spectrum::grey(coin() ? 0.0 : 1.0));
+    return out;
+  }
   Law<double> law(int depth = 0) {
-    switch (below(depth < 2 ? 6 : 5)) {
+    switch (below(depth < 2 ? 7 : 6)) {
       case 0:
         return Isotropic<double>{};
       case 1:
@@ -78,6 +90,8 @@ class Dice {
         return MieHazy<double>{};
       case 4:
         return MieMurky<double>{};
+      case 5:
+        return table();
       default: {
         Mixture<double> mixture;
         const int parts = 1 + below(3);

@@ -30,6 +30,39 @@ inline std::optional<Objection> objection_to(const Mixture<double>& mixture) {
 
 constexpr auto demands_of(const Mixture<double>&) { return std::array{counts("parts", "weight")}; }
 
+/// A table is in the text or in a file, and its numbers are a law.
+inline std::optional<Objection> objection_to(const Tabulated<double>& table) {
+  const bool inside = !table.angles.empty() || !table.values.empty();
+  if (inside && table.file) return Objection{"file", "a file beside angles and values", "one or the other"};
+  if (!inside && !table.file) return Objection{"", "a table without numbers", "angles and values, or a file"};
+  if (table.angles.size() != table.values.size()) {
+    return Objection{"values", std::to_string(table.values.size()) + " values",
+                     "as many as there are angles, " + std::to_string(table.angles.size())};
+  }
+  if (table.from_file() && table.file->rows->columns != 2 && table.file->rows->columns != 4) {
+    return Objection{"file", "a file of " + std::to_string(table.file->rows->columns) + " columns",
+                     "2 (angle, value) or 4 (angle, red, green, blue)"};
+  }
+  const std::optional<TableFlaw> flaw = flaw_of(table);
+  if (!flaw) return std::nullopt;
+  if (!table.from_file()) {
+    const std::string list = flaw->channel ? "values" : "angles";
+    return Objection{flaw->whole ? "" : list + '/' + std::to_string(flaw->knot), flaw->found, flaw->expected};
+  }
+  std::string where;
+  if (!flaw->whole) {
+    const std::size_t column = !flaw->channel ? 1 : table.file->rows->columns == 2 ? 2 : 2 + *flaw->channel;
+    where = " (line " + std::to_string(table.file->rows->line[flaw->knot]) + ", column " + std::to_string(column) +
+            " of the file)";
+  }
+  return Objection{"file", flaw->found + where, flaw->expected};
+}
+
+constexpr auto demands_of(const Tabulated<double>&) {
+  return std::array{some_of("angles", "file"), not_both("angles", "file"), not_both("values", "file"),
+                    needs("angles", "values"), needs("values", "angles")};
+}
+
 /// Coefficients as scattering and absorption, or as density (extinction) and albedo: one pair or the other.
 struct StatedSpecies {
   static constexpr std::string_view text = "One kind of particle.";

@@ -18,6 +18,11 @@ void add_threads(CLI::App& command, int& threads) {
       ->check(CLI::Range(1, 1024));
 }
 
+void add_allow_path(CLI::App& command, bool& allow_path) {
+  command.add_flag("--allow-path", allow_path,
+                   "Follow references to files outside the folder of the file that names them");
+}
+
 std::function<std::string(const std::string&)> number_within(double low, double high) {
   return [low, high](const std::string& text) -> std::string {
     double value = 0.0;

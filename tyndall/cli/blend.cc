@@ -2,6 +2,7 @@
 #include <iostream>
 #include <string>
 
+#include "tyndall/cli/arguments.h"
 #include "tyndall/cli/commands.h"
 #include "tyndall/cli/warnings.h"
 #include "tyndall/document/binding.h"
@@ -13,6 +14,7 @@ namespace {
 struct BlendOptions {
   std::string a, b, out, how = "interpolate";
   double at = 0.0;
+  bool allow_path = false;
 };
 
 BlendHow how_of(const std::string& word) {
@@ -28,7 +30,7 @@ void blend(const BlendOptions& options) {
     throw Fault("--at", "the number " + short_number(options.at), "a number from 0 (the first) to 1 (the second)");
   }
   const BlendHow how = how_of(options.how);
-  MediumFile a = read_medium_file(options.a), b = read_medium_file(options.b);
+  MediumFile a = read_medium_file(options.a, options.allow_path), b = read_medium_file(options.b, options.allow_path);
   move_schema(a, options.a, options.out);
   move_schema(b, options.b, options.out);
   if (channels_of(a) != channels_of(b)) {
@@ -50,6 +52,7 @@ void add_blend(CLI::App& app) {
   command->add_option("--at", options->at, "How far: 0 is A, 1 is B")->required();
   command->add_option("--how", options->how, "interpolate, mix or morph")->capture_default_str();
   command->add_option("-o,--output", options->out, "Medium file to write (*.medium.json)")->required();
+  add_allow_path(*command, options->allow_path);
   command->footer(
       "interpolate moves every dial (w, thickness, lobes, ...) in a straight line; both media must use the\n"
       "  same model.\n"

@@ -316,5 +316,59 @@ TEST_F(Program, HelpExplainsEveryCommandWithAnExample) {
   EXPECT_GE(commands, 3);
 }
 
+TEST_F(Program, ReadsATableFromAFileInOneWord) {
+  write("t.csv", "angle;value\r\n0;10\r\n90;1\r\n180;2\r\n");
+  const Json grey = json_of("phase tabulated:file=t.csv --at 1,0,-1 --moments 2 --sample 0,1");
+  // Linear in mu: the integral over mu is (10 + 1)/2 + (1 + 2)/2 = 7.
+  EXPECT_NEAR(grey["density"][0].get<double>(), 10.0 / 7.0 / (2.0 * std::acos(-1.0)), 1e-15);
+  EXPECT_NEAR(grey["density"][1].get<double>() * 10.0, grey["density"][0].get<double>(), 1e-15);
+  EXPECT_NEAR(grey["legendre"][0].get<double>(), 1.0, 1e-15);
+  EXPECT_EQ(grey["legendre"][1], grey["mean_cosine"]);
+  EXPECT_EQ(grey["sampled_mu"], Json::parse("[-1, 1]"));
+
+  write("rgb.csv", "0 9 4 1\n60 1 2 1\n180 .5 1 1\n");
+  const Json colored = json_of("phase tabulated:file=rgb.csv --at 0.5 --moments 1 --sample 0.5");
+  for (const char* key : {"density", "legendre", "sampled_mu"}) EXPECT_EQ(colored[key][0].size(), 3u) << key;
+  EXPECT_NEAR(colored["mean_cosine"][2].get<double>(), 0.0, 1e-15);
+  EXPECT_NEAR(colored["density"][0][2].get<double>(), 1.0 / (4.0 * std::acos(-1.0)), 1e-15);
+
+  write("bad.csv", "0,1\n12,secret\n");
+  const Outcome refused = tyndall("phase tabulated:file=bad.csv");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_EQ(refused.out, "");
+  EXPECT_THAT(refused.err, HasSubstr("bad.csv:2: found no number in column 2"));
+  EXPECT_EQ(refused.err.find("secret"), std::string::npos);
+  EXPECT_EQ(tyndall("phase tabulated:file=absent.csv").code, 2);
+}
+
+// Deirmendjian's cloud by Mie's theory (scripts/cloud_table.cc): the mean cosines that the sums over spheres give
+// themselves, to what 320 knots can say; one species to the reader.
+TEST_F(Program, ShowsACloudOfDropletsAsOneSpecies) {
+  const Json json = json_of("show " + example("cloud"));
+  ASSERT_EQ(json["species"].size(), 2u);
+  const Json& droplets = json["species"][1];
+  EXPECT_EQ(droplets["name"], "droplets");
+  EXPECT_EQ(droplets["phase"], Json::parse(R"({"law": "tabulated", "file": "cloud_c1.csv"})"));
+  const double exact[] = {0.84868, 0.85316, 0.85614};
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(droplets["mean_cosine"][c].get<double>(), exact[c], 3e-4);
+}
+
+TEST_F(Program, BlendKeepsATableByReferenceOrByItsNumbers) {
+  write("t.csv", "0,10\n90,1\n180,2\n");
+  write("a.medium.json", R"({"format": "tyndall-medium/1", "species": [{"name": "x", "scattering": 1,
+                             "phase": {"law": "tabulated", "file": "t.csv"}}]})");
+  write("b.medium.json", R"({"format": "tyndall-medium/1", "species": [{"name": "y", "scattering": 1}]})");
+  fs::create_directory(folder_ / "below");
+  for (const char* out : {"c.medium.json", "below/c.medium.json"}) {
+    EXPECT_EQ(tyndall("blend a.medium.json b.medium.json --at 0.25 --how mix -o " + std::string(out)).code, 0);
+    const Json phase = json_of("show " + std::string(out))["species"][0]["phase"];
+    EXPECT_EQ(phase.contains("file"), out[0] == 'c') << out;
+    EXPECT_EQ(phase.contains("angles"), out[0] != 'c') << out;
+    const Json mixed = json_of("phase " + std::string(out) + " --at 1");
+    EXPECT_NEAR(mixed["density"][0][0].get<double>(), (0.75 * 10.0 / 7.0 + 0.25 * 0.5) / (2.0 * std::acos(-1.0)),
+                1e-14);
+  }
+}
+
 }  // namespace
 }  // namespace tyndall

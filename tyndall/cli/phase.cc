@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tyndall/cli/arguments.h"
 #include "tyndall/cli/commands.h"
 #include "tyndall/cli/number_list.h"
 #include "tyndall/cli/table.h"
@@ -26,13 +27,14 @@ struct PhaseOptions {
   std::string subject, at_text, sample_text;
   std::vector<double> at, sample;
   std::optional<int> moments;
-  bool json = false;
+  bool json = false, allow_path = false;
 };
 
 /// What is asked of either subject: a law answers with one number, a medium with one per channel.
 struct Subject {
-  std::vector<LobeSum<double>> channels;  // one for a law, channel_count for a medium; empty where nothing scatters
-  std::optional<Law<double>> law;         // its own sampler is the better one
+  std::vector<LobeSum<double>> channels;  // one for a law that is the same in all channels, else one per channel; empty
+                                          // where nothing scatters
+  std::optional<Law<double>> law;         // the same in all channels: its own sampler is the better one
   std::string title;
 
   template <class Value>
@@ -43,12 +45,28 @@ struct Subject {
     }
     return law ? out.front() : out;
   }
+  /// Legendre moments 0 to `last`, each an answer.
+  OrderedJson moments(int last) const {
+    std::vector<std::vector<double>> all;
+    for (const auto& lobes : channels) all.push_back(tyndall::moments(lobes, last));
+    OrderedJson out = OrderedJson::array();
+    for (std::size_t l = 0; l < all.front().size(); ++l) {
+      OrderedJson row = OrderedJson::array();
+      for (std::size_t c = 0; c < channels.size(); ++c)
+        row.push_back(channels[c].empty() ? OrderedJson(nullptr) : written_number(all[c][l]));
+      out.push_back(law ? row.front() : row);
+    }
+    return out;
+  }
 };
 
-Subject subject_of(const std::string& text) {
+Subject subject_of(const std::string& text, bool allow_path) {
   if (is_law_text(text)) {
     const Law<double> law = law_from_text(text);
-    return {{merged(lower(law))}, law, text};
+    if (!is_chromatic(law)) return {{merged(lower(law))}, law, text};
+    Subject out{{}, std::nullopt, text};
+    for (auto& lobes : lower_channels(law)) out.channels.push_back(merged(std::move(lobes)));
+    return out;
   }
   std::error_code error;
   const std::string word = text.substr(0, text.find(':'));
@@ -56,7 +74,7 @@ Subject subject_of(const std::string& text) {
     throw Fault("phase", in_quotes(text) + ", neither a law nor a file",
                 "a medium file or " + one_of(word, law_names()));
   }
-  const MediumFile file = read_medium_file(text);
+  const MediumFile file = read_medium_file(text, allow_path);
   warn(file, text);
   const auto mixture = mixture_at(compile(file, text));
   return {{mixture.begin(), mixture.end()}, std::nullopt, file.name};
@@ -74,10 +92,7 @@ OrderedJson answers(const Subject& subject, const PhaseOptions& options) {
     return subject.answer([&](const LobeSum<double>& lobes) { return density(lobes, d); });
   });
   out["mean_cosine"] = subject.answer([](const LobeSum<double>& lobes) { return mean_cosine(lobes); });
-  std::vector<int> orders;
-  for (int l = 0; l <= options.moments.value_or(-1); ++l) orders.push_back(l);
-  list("legendre", orders,
-       [&](int l) { return subject.answer([l](const LobeSum<double>& lobes) { return moment(lobes, l); }); });
+  out["legendre"] = options.moments ? subject.moments(*options.moments) : OrderedJson::array();
   list("sampled_mu", options.sample, [&](double u) {
     return subject.answer(
         [&](const LobeSum<double>& lobes) { return (subject.law ? sample(*subject.law, u) : sample(lobes, u)).mu; });
@@ -130,7 +145,7 @@ void phase(PhaseOptions options) {
     throw Fault("--moments", "the number " + std::to_string(*options.moments),
                 "a whole number from 0 to " + std::to_string(most_moments));
   }
-  const Subject subject = subject_of(options.subject);
+  const Subject subject = subject_of(options.subject, options.allow_path);
   if (options.json) {
     std::cout << pretty(answers(subject, options));
     return;
@@ -158,6 +173,7 @@ void add_phase(CLI::App& app) {
   command->add_option("--sample", options->sample_text, "Sampled mu for these random numbers from 0 to 1")
       ->type_name("U,..");
   command->add_flag("--json", options->json, "Print one JSON object: a law gives numbers, a medium lists [r, g, b]");
+  add_allow_path(*command, options->allow_path);
   command->footer("Laws: " + laws +
                   ".\nmu = 1 is straight on, mu = -1 straight back. A medium is taken at the origin.\n\n"
                   "Example: tyndall phase henyey_greenstein:g=0.7 --at 1,0,-1 --moments 4");

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tyndall/cli/arguments.h"
 #include "tyndall/cli/commands.h"
 #include "tyndall/document/law_text.h"
 #include "tyndall/document/medium_file.h"
@@ -27,7 +28,7 @@ struct PixelSize {
 struct Options {
   std::vector<std::string> subjects;
   std::string output, what = "all", size;
-  bool logarithmic = false, species = false;
+  bool logarithmic = false, species = false, allow_path = false;
 };
 
 constexpr int least_pixels = 100, most_side = 16384, usual_width = 1600;
@@ -51,7 +52,7 @@ std::array<std::string, channel_count> channel_names(const MediumFile& file) {
   return names;
 }
 
-Subject subject_from(const std::string& text) {
+Subject subject_from(const std::string& text, bool allow_path) {
   if (is_law_text(text)) return subject_of(law_title(text), law_from_text(text));
   std::error_code error;
   const std::string word = text.substr(0, text.find(':'));
@@ -59,7 +60,7 @@ Subject subject_from(const std::string& text) {
     throw Fault("plot", in_quotes(text) + ", neither a law nor a file",
                 "a medium file or " + one_of(word, law_names()));
   }
-  const MediumFile file = read_medium_file(text);
+  const MediumFile file = read_medium_file(text, allow_path);
   std::string name = file.name;
   if (name.empty()) name = std::filesystem::path(text).stem().stem().string();
   Subject subject = subject_of(printable(name, 120), compile(file, text));
@@ -142,7 +143,7 @@ void plot_to_file(const Options& options) {
                 "at most " + std::to_string(most_plotted) + " in one picture");
   }
   std::vector<Subject> subjects;
-  for (const std::string& text : options.subjects) subjects.push_back(subject_from(text));
+  for (const std::string& text : options.subjects) subjects.push_back(subject_from(text, options.allow_path));
   const Figure figure = plot(subjects, how);
   kind == ".svg" ? write_svg(options.output, figure, size) : write_png(options.output, figure, size);
 }
@@ -170,6 +171,7 @@ void add_plot(CLI::App& app) {
   command->add_flag("--species", options->species, "Thin lines for each species of a medium, each part of a law");
   command->add_option("--size", options->size, "Pixels, for example 1600x1200 (default: as large as it takes)")
       ->type_name("WxH");
+  add_allow_path(*command, options->allow_path);
   command->footer(
       "Laws: " + laws +
       ".\nOne medium is drawn in its red, green and blue; of several, each has a line of its own (its green).\n"

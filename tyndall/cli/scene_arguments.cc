@@ -2,6 +2,7 @@
 
 #include <iostream>
 
+#include "tyndall/cli/arguments.h"
 #include "tyndall/scene/scene_file.h"
 
 namespace tyndall {
@@ -9,8 +10,7 @@ namespace tyndall {
 void add_scene_arguments(CLI::App& command, SceneArguments& arguments) {
   command.add_option("SCENE", arguments.scene, "A .scene.json, .glb or .gltf file")->required();
   command.add_option("--medium", arguments.medium, "The air: a medium file, instead of the scene's own");
-  command.add_flag("--allow-path", arguments.allow_path,
-                   "Follow references to files outside the folder of the file that names them");
+  add_allow_path(command, arguments.allow_path);
 }
 
 Scene scene_of(const SceneArguments& arguments, bool quiet) {

@@ -3,6 +3,7 @@
 #include <iostream>
 #include <string>
 
+#include "tyndall/cli/arguments.h"
 #include "tyndall/cli/commands.h"
 #include "tyndall/cli/table.h"
 #include "tyndall/cli/warnings.h"
@@ -96,7 +97,7 @@ void print_table(const MediumSummary& medium, const MediumFile& file) {
   species.add({"made of", "law", "scattering [1/m]", "absorption [1/m]", "mean cosine", "profile"});
   for (const SpeciesSummary& s : medium.species) {
     species.add({printable(s.name, 30), s.law, channels_text(s.scattering), channels_text(s.absorption),
-                 value_text(s.mean_cosine), profile_text(s.profiles)});
+                 channels_text(s.mean_cosine.value), profile_text(s.profiles)});
   }
   if (!medium.species.empty() && largest(Spectrum{medium.extinction}) == 0.0) {
     std::cout << "\nNothing of it is at the origin; its species have their own places.\n";
@@ -109,11 +110,11 @@ void print_table(const MediumSummary& medium, const MediumFile& file) {
 
 struct ShowOptions {
   std::string medium;
-  bool json = false;
+  bool json = false, allow_path = false;
 };
 
 void show(const ShowOptions& options) {
-  const MediumFile file = read_medium_file(options.medium);
+  const MediumFile file = read_medium_file(options.medium, options.allow_path);
   MediumSummary summary = summary_of(compile(file, options.medium));
   const MediumDials dials = dials_in_metres(file);
   summary.name = file.name;
@@ -135,6 +136,7 @@ void add_show(CLI::App& app) {
   CLI::App* command = app.add_subcommand("show", "Print a medium in numbers: how far one sees, what it is made of");
   command->add_option("MEDIUM", options->medium, "Medium file (*.medium.json)")->required();
   command->add_flag("--json", options->json, "Print one JSON object, in SI units; infinite or undefined is null");
+  add_allow_path(*command, options->allow_path);
   command->footer(
       "Everything is stated at the origin of the scene. Visibility is the distance at which a black\n"
       "object against the horizon keeps 5 % (or 2 %) of its contrast.\n\n"

@@ -22,7 +22,7 @@ struct SlabOptions {
   std::uint32_t spp = 1000000;
   std::uint64_t seed = 1;
   int threads = 0;
-  bool json = false;
+  bool json = false, allow_path = false;
 };
 
 double thickness_of(const std::string& text) {
@@ -82,7 +82,7 @@ void slab(const SlabOptions& options) {
   for (const double mu : options.mu) {
     if (!(mu > 0.0 && mu <= 1.0)) throw Fault("--mu", "the number " + value_text(mu), "cosines above 0, to 1");
   }
-  const MediumFile file = read_medium_file(options.medium);
+  const MediumFile file = read_medium_file(options.medium, options.allow_path);
   request.medium = compile(file, options.medium);
   request.mu = options.mu;
   request.diffuse = options.illumination == "diffuse";
@@ -121,6 +121,7 @@ void add_slab(CLI::App& app) {
       ->check(CLI::Range(1u, 4000000000u));
   add_seed(*command, options->seed);
   add_threads(*command, options->threads);
+  add_allow_path(*command, options->allow_path);
   command->add_flag("--json", options->json, "Print one JSON object");
   command->footer(
       "A beam enters the top of a flat layer, black outside; all orders of scattering. Numbers are shares of the "

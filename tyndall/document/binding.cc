@@ -1,5 +1,8 @@
 #include "tyndall/document/binding.h"
 
+#include "tyndall/document/number_rows.h"
+#include "tyndall/document/reference.h"
+
 namespace tyndall {
 namespace {
 
@@ -35,6 +38,16 @@ int read_integer(const JsonCursor& at, const FieldFacts& facts) {
     throw at.wrong_type("a whole number, " + expected_value<int>(facts));
   }
   return static_cast<int>(x);
+}
+
+NumberFile read_number_file(const JsonCursor& at, const FieldFacts& facts) {
+  if (!at.value().is_string()) throw at.wrong_type(expected_value<NumberFile>(facts));
+  const auto& name = at.value().get_ref<const std::string&>();
+  if (!at.references())
+    throw at.fault("the name of a file, in a text that stands in no folder", "the numbers themselves");
+  const ReferenceRule& rule = *at.references();
+  const auto path = referenced_file(rule.naming, name, rule.allow_path, at.fault("", "").where);
+  return {name, path.string(), std::make_shared<const NumberRows>(read_number_rows(path))};
 }
 
 std::size_t read_word(const JsonCursor& at, const std::vector<std::string_view>& words) {

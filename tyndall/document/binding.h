@@ -8,9 +8,10 @@
 //   const auto in_si = in_metres(mine, meters_per_unit);      // artist/dials.h: scales what has a Scaling
 //
 // Members may be: double, int, bool, std::string, a one-of, Spectrum (a number means grey), Vector ([x,y,z]),
-// std::array<double, N>, std::optional, std::vector, a described struct, or a choice (std::variant). Values are kept as
-// written: nothing is scaled while reading. Every error is a Fault with file, line and pointer: wrong types, numbers
-// out of range, missing and unknown keys (with the nearest spelling), and what objection_to() objects to.
+// std::array<double, N>, NumberFile (read when it is named), std::optional, std::vector, a described struct, or a
+// choice (std::variant). Values are kept as written: nothing is scaled while reading. Every error is a Fault with file,
+// line and pointer: wrong types, numbers out of range, missing and unknown keys (with the nearest spelling), and what
+// objection_to() objects to.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -20,6 +21,7 @@
 #include "tyndall/document/spelling.h"
 #include "tyndall/geometry/vector.h"
 #include "tyndall/number/described.h"
+#include "tyndall/number/number_file.h"
 
 namespace tyndall {
 
@@ -30,6 +32,8 @@ std::string described(const FieldFacts& facts);
 double read_number(const JsonCursor& at, const FieldFacts& facts);
 /// The whole number here, within the range and the int type.
 int read_integer(const JsonCursor& at, const FieldFacts& facts);
+/// The file of numbers that is named here.
+NumberFile read_number_file(const JsonCursor& at, const FieldFacts& facts);
 /// The index of the text here among words.
 std::size_t read_word(const JsonCursor& at, const std::vector<std::string_view>& words);
 /// A Fault where this is not an object, or has a key that is neither among `keys` nor the tag.
@@ -54,6 +58,8 @@ std::string expected_value(const FieldFacts& facts) {
     return "true or false" + about;
   } else if constexpr (std::is_same_v<T, std::string>) {
     return "a text" + about;
+  } else if constexpr (std::is_same_v<T, NumberFile>) {
+    return "the name of a file" + about;
   } else if constexpr (OneOf<T>) {
     constexpr auto words = words_of(T{});
     return one_of("", {words.begin(), words.end()}) + about;
@@ -205,6 +211,8 @@ void read_value(const JsonCursor& at, const FieldFacts& facts, T& out) {
   } else if constexpr (std::is_same_v<T, std::string>) {
     if (!at.value().is_string()) throw at.wrong_type(expected_value<T>(facts));
     out = at.value().template get_ref<const std::string&>();
+  } else if constexpr (std::is_same_v<T, NumberFile>) {
+    out = read_number_file(at, facts);
   } else if constexpr (OneOf<T>) {
     constexpr auto words = words_of(T{});
     out = static_cast<T>(read_word(at, {words.begin(), words.end()}));

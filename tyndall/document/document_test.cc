@@ -134,6 +134,9 @@ TEST(Law, EveryLawIsReadAndWrittenFromItsFields) {
   for_each_alternative<Law<double>>([]<class L>(std::type_identity<L>) {
     Law<double> law = L{};
     if (auto* mixture = std::get_if<Mixture<double>>(&law)) mixture->parts.push_back({2.0, MieHazy<double>{}});
+    if (auto* table = std::get_if<Tabulated<double>>(&law)) {
+      *table = {{0.0, 90.0, 170.0}, {Spectrum::grey(3.0), {{1.0, 2.0, 3.0}}, {}}, {}};
+    }
     for_each_number(law, {}, "", [](double& x, const FieldFacts&, const std::string&) { x += 0.125; });
     const JsonText text = parse_json(pretty(written(law)), "t");
     EXPECT_TRUE(same(read_as<Law<double>>(JsonCursor(text)), law)) << text.text;

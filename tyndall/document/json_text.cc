@@ -178,8 +178,10 @@ JsonText parse_json(std::string text, std::string name) {
   return {std::move(name), std::move(text), std::move(builder.root)};
 }
 
-JsonText read_json(const std::filesystem::path& file) {
-  return parse_json(read_whole_text(file, largest_json), file.string());
+JsonText read_json(const std::filesystem::path& file, bool allow_path) {
+  JsonText json = parse_json(read_whole_text(file, largest_json), file.string());
+  json.references = ReferenceRule{file, allow_path};
+  return json;
 }
 
 JsonCursor JsonCursor::at(std::string_view key) const {

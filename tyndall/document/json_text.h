@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -16,19 +17,27 @@ using Json = nlohmann::json;
 inline constexpr std::size_t deepest_json = 64;
 inline constexpr std::size_t largest_json = std::size_t{16} << 20;  // bytes
 
+/// Where the files that a text names are looked for (reference.h).
+struct ReferenceRule {
+  std::filesystem::path naming;  // the file that the text is, or will be
+  bool allow_path = false;       // files outside its folder too
+};
+
 /// A parsed text that remembers where it came from.
 struct JsonText {
   std::string file;  // its name in messages
   std::string text;
   Json root;
+  std::optional<ReferenceRule> references = {};  // none: the text stands in no folder and can name no files
 };
 
 /// Parses UTF-8 JSON (RFC 8259) with no duplicate keys, at most deepest_json levels and only numbers that a double can
 /// hold. Throws Fault for anything else. `name` is what messages call the text.
 JsonText parse_json(std::string text, std::string name);
 
-/// Reads and parses a file of at most largest_json bytes; its path is its name. Throws Fault.
-JsonText read_json(const std::filesystem::path& file);
+/// Reads and parses a file of at most largest_json bytes; its path is its name, and references start from its folder.
+/// Throws Fault.
+JsonText read_json(const std::filesystem::path& file, bool allow_path = false);
 
 /// One value of a JsonText and the way to it. Refers to the JsonText, which must outlive it.
 class JsonCursor {
@@ -39,6 +48,7 @@ class JsonCursor {
   /// RFC 6901, "" for the root.
   const std::string& pointer() const { return pointer_; }
   const std::string& file() const { return text_->file; }
+  const std::optional<ReferenceRule>& references() const { return text_->references; }
 
   /// A member of an object, an element of a list: it must exist.
   JsonCursor at(std::string_view key) const;

@@ -11,6 +11,9 @@ namespace {
 
 std::string_view before_colon(std::string_view text) { return text.substr(0, text.find(':')); }
 
+/// What a person names on the command line is looked for where the command was given, and may be anywhere.
+const ReferenceRule anywhere{"", true};
+
 /// A number where it is one, else the text itself: binding then says what it should have been.
 Json value_of(std::string_view text) {
   double x = 0.0;
@@ -35,10 +38,11 @@ bool is_law_text(std::string_view text) {
 Law<double> law_from_text(const std::string& text) {
   const std::string name = "law " + in_quotes(text, 80);
   if (text.substr(0, 1) == "{") {
-    const JsonText json = parse_json(text, name);
+    JsonText json = parse_json(text, name);
+    json.references = anywhere;
     return read_as<Law<double>>(JsonCursor(json));
   }
-  JsonText json{name, "", Json::object()};
+  JsonText json{name, "", Json::object(), anywhere};
   const std::string_view law = before_colon(text);
   json.root["law"] = law;
   std::string_view rest = std::string_view(text).substr(std::min(law.size() + 1, text.size()));

@@ -1,6 +1,8 @@
 #include "tyndall/document/medium_file.h"
 
 #include "tyndall/document/binding.h"
+#include "tyndall/document/number_rows.h"
+#include "tyndall/document/reference.h"
 #include "tyndall/document/spelling.h"
 #include "tyndall/document/whole_file.h"
 
@@ -13,6 +15,33 @@ std::variant<Medium, Objection> compile_or_object(const MediumFile& file) {
   const MediumDials si = dials_in_metres(file);
   if (auto objection = unusable_number(si)) return *objection;
   return compile(si);
+}
+
+/// The name by which `naming` could refer to a file of numbers; none where it cannot, or where the file has changed.
+std::optional<std::string> name_from(const std::filesystem::path& naming, const NumberFile& file) {
+  std::error_code error;
+  const auto folder = std::filesystem::canonical(naming.has_parent_path() ? naming.parent_path() : ".", error);
+  const std::string name = std::filesystem::path(file.path).lexically_relative(folder).generic_string();
+  try {
+    const NumberRows now = read_number_rows(referenced_file(naming, name, false, ""));
+    if (NumberFile{name, "", std::make_shared<const NumberRows>(now)} == file) return name;
+  } catch (const Fault&) {
+  }
+  return std::nullopt;
+}
+
+/// Makes a law's references good in the file `naming`, or its numbers its own.
+void move_references(Law<double>& law, const std::filesystem::path& naming) {
+  if (auto* mixture = std::get_if<Mixture<double>>(&law)) {
+    for (auto& part : mixture->parts) move_references(part.phase, naming);
+  }
+  auto* const table = std::get_if<Tabulated<double>>(&law);
+  if (table == nullptr || !table->from_file()) return;
+  if (const auto name = name_from(naming, *table->file)) {
+    table->file->name = *name;
+  } else {
+    *table = table->written_out();
+  }
 }
 
 }  // namespace
@@ -30,8 +59,8 @@ MediumFile medium_from_json(std::string text, const std::string& name_for_messag
   return medium_file_at(JsonCursor(json));
 }
 
-MediumFile read_medium_file(const std::filesystem::path& file) {
-  const JsonText json = read_json(file);
+MediumFile read_medium_file(const std::filesystem::path& file, bool allow_path) {
+  const JsonText json = read_json(file, allow_path);
   return medium_file_at(JsonCursor(json));
 }
 
@@ -68,8 +97,12 @@ std::string remark_text(const Remark& remark, const std::string& file, const std
 std::string medium_to_json(const MediumFile& file) { return pretty(written(file)); }
 
 void write_medium_file(const std::filesystem::path& file, const MediumFile& medium) {
-  const std::string text = medium_to_json(medium);
-  medium_from_json(text, file.string());
+  MediumFile moved = medium;
+  for (StatedSpecies& species : moved.species) move_references(species.phase, file);
+  const std::string text = medium_to_json(moved);
+  JsonText json = parse_json(text, file.string());
+  json.references = ReferenceRule{file};
+  medium_file_at(JsonCursor(json));
   write_whole_file(file, text);
 }
 

@@ -40,7 +40,8 @@ inline ChannelTag channels_of(const MediumFile& file) { return file.channels.val
 /// Fault.
 MediumFile medium_file_at(const JsonCursor& at);
 MediumFile medium_from_json(std::string text, const std::string& name_for_messages);
-MediumFile read_medium_file(const std::filesystem::path& file);
+/// Files that it names must be below its folder unless `allow_path`.
+MediumFile read_medium_file(const std::filesystem::path& file, bool allow_path = false);
 
 /// The medium in SI. Throws Fault {`name_for_messages`, ...} where the dials contradict each other; never for a file as
 /// read.
@@ -57,7 +58,9 @@ void move_schema(MediumFile& file, const std::filesystem::path& from, const std:
 std::string remark_text(const Remark& remark, const std::string& file, const std::string& pointer = "");
 
 std::string medium_to_json(const MediumFile& file);
-/// Writes the file whole or not at all. Throws Fault, also where the dials could not be read back.
+/// Writes the file whole or not at all. A file of numbers that the medium refers to stays a reference where the new
+/// file could refer to it (it is in the same folder or below, and still holds the same); else its numbers are written
+/// out. Throws Fault, also where the dials could not be read back.
 void write_medium_file(const std::filesystem::path& file, const MediumFile& medium);
 
 }  // namespace tyndall

@@ -35,7 +35,7 @@ MediumSummary summary_of(const Medium& medium, const Vector& point) {
     summary.scattering = (s.scattering * here).value;
     summary.absorption = (s.absorption * here).value;
     summary.extinction = (s.extinction() * here).value;
-    summary.mean_cosine = mean_cosine(s.phase);
+    summary.mean_cosine = mean_cosines(s.phase);
     summary.phase = s.phase;
     summary.profiles = s.profiles;
     out.species.push_back(std::move(summary));
@@ -48,9 +48,10 @@ std::array<LobeSum<double>, channel_count> mixture_at(const Medium& medium, cons
   std::array<LobeSum<double>, channel_count> out;
   for (const Species& s : medium.species) {
     const Spectrum scattering = s.scattering * mean_factor(s, point);
+    const auto lobes = lower_channels(s.phase);
     for (std::size_t c = 0; c < channel_count; ++c) {
       if (!(scattering[c] > 0.0)) continue;
-      for (const auto& part : lower(s.phase)) out[c].push_back({scattering[c] / total[c] * part.weight, part.lobe});
+      for (const auto& part : lobes[c]) out[c].push_back({scattering[c] / total[c] * part.weight, part.lobe});
     }
   }
   for (LobeSum<double>& lobes : out) lobes = merged(std::move(lobes));

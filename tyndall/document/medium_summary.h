@@ -17,19 +17,19 @@ using ChannelList = std::array<double, channel_count>;
 struct SpeciesSummary {
   std::string name, law;
   ChannelList scattering{}, absorption{}, extinction{};  // [1/m], profile included
-  double mean_cosine = 0.0;
+  Spectrum mean_cosine;
   Law<double> phase;
   std::vector<Profile> profiles;
   static constexpr auto fields() {
-    return std::tuple{
-        Field{"name", &SpeciesSummary::name, any_number, "", "What it is called."},
-        Field{"law", &SpeciesSummary::law, any_number, "", "Name of its law of scattering."},
-        Field{"scattering", &SpeciesSummary::scattering, any_number, "1/m", "Scattering coefficient."},
-        Field{"absorption", &SpeciesSummary::absorption, any_number, "1/m", "Absorption coefficient."},
-        Field{"extinction", &SpeciesSummary::extinction, any_number, "1/m", "Extinction coefficient."},
-        Field{"mean_cosine", &SpeciesSummary::mean_cosine, any_number, "1", "Mean cosine of the deflection."},
-        Field{"phase", &SpeciesSummary::phase, any_number, "", "The law with its parameters."},
-        Field{"profiles", &SpeciesSummary::profiles, any_number, "", "How it varies in space."}};
+    return std::tuple{Field{"name", &SpeciesSummary::name, any_number, "", "What it is called."},
+                      Field{"law", &SpeciesSummary::law, any_number, "", "Name of its law of scattering."},
+                      Field{"scattering", &SpeciesSummary::scattering, any_number, "1/m", "Scattering coefficient."},
+                      Field{"absorption", &SpeciesSummary::absorption, any_number, "1/m", "Absorption coefficient."},
+                      Field{"extinction", &SpeciesSummary::extinction, any_number, "1/m", "Extinction coefficient."},
+                      Field{"mean_cosine", &SpeciesSummary::mean_cosine, any_number, "1",
+                            "Mean cosine of the deflection; a list where it differs."},
+                      Field{"phase", &SpeciesSummary::phase, any_number, "", "The law with its parameters."},
+                      Field{"profiles", &SpeciesSummary::profiles, any_number, "", "How it varies in space."}};
   }
 };
 

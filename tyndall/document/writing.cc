@@ -1,5 +1,6 @@
 #include "tyndall/document/writing.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdlib>
 
@@ -27,6 +28,20 @@ std::string one_line(const OrderedJson& value) {
   return value.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
 }
 
+/// A long list of numbers, as many on a line as fit, up to its closing bracket.
+std::string filled(const OrderedJson& list, const std::string& margin) {
+  std::string text = "[", line;
+  for (auto it = list.begin(); it != list.end(); ++it) {
+    const std::string number = one_line(*it) + (it + 1 == list.end() ? "" : ",");
+    if (!line.empty() && margin.size() + line.size() + number.size() + 1 > line_width) {
+      text += '\n' + margin + line;
+      line.clear();
+    }
+    line += (line.empty() ? "" : " ") + number;
+  }
+  return text + '\n' + margin + line;
+}
+
 void append(const OrderedJson& value, std::size_t indent, std::size_t used, std::string& out) {
   const std::string line = one_line(value);
   if (used + line.size() <= line_width || !value.is_structured() || value.empty()) {
@@ -34,6 +49,10 @@ void append(const OrderedJson& value, std::size_t indent, std::size_t used, std:
     return;
   }
   const std::string margin(indent + 2, ' ');
+  if (value.is_array() && std::all_of(value.begin(), value.end(), [](const auto& x) { return x.is_number(); })) {
+    out += filled(value, margin) + '\n' + std::string(indent, ' ') + ']';
+    return;
+  }
   out += value.is_array() ? '[' : '{';
   for (auto it = value.begin(); it != value.end(); ++it) {
     out += (it == value.begin() ? "\n" : ",\n") + margin;

@@ -11,7 +11,8 @@
 
 namespace tyndall {
 
-/// In the patterns a word after $ is replaced: $type, $name, $value, $parameters, $count, $mask, $yes, $no, $x, $y, $z.
+/// In the patterns a word after $ is replaced: $type, $name, $value, $parameters, $count, $mask, $yes, $no, $x, $y, $z,
+/// $values.
 struct Dialect {
   std::string_view name;  // as in `tyndall export --to`
   std::string_view number_type;
@@ -23,6 +24,8 @@ struct Dialect {
   std::string_view local;           // a local that keeps its value
   std::string_view variable;        // a local that is assigned to
   std::string_view loop;            // the line that opens a loop
+  std::string_view array;           // an array known when the shader is compiled, outside of functions
+  std::string_view lookup;          // its number at the index $x, which is a number
   std::string_view select;          // $mask ? $yes : $no, or a call
   bool select_is_call;              // else it is an operator and needs parentheses around it
   std::string_view make_triple;     // "vec3($x, $y, $z)"

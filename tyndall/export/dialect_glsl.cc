@@ -68,6 +68,8 @@ const Dialect& glsl_dialect() {
       .local = "$type $name = $value;",
       .variable = "$type $name = $value;",
       .loop = "for (int $name = 0; $name < $count; ++$name) {",
+      .array = "const $type $name[$count] = $type[$count]($values);",
+      .lookup = "$name[int($x)]",
       .select = "$mask ? $yes : $no",
       .select_is_call = false,
       .make_triple = "vec3($x, $y, $z)",

@@ -120,6 +120,13 @@ int ExpressionGraph::add(const Symbol& symbol) {
     case Operation::result:
       index = interned(node.operation, std::move(operands), node.value);
       break;
+    case Operation::lookup:
+      if (const Expression& at = (*this)[operands[0]]; at.is_constant()) {
+        index = interned(Operation::constant, {}, lookup(node.array, at.value));
+      } else {
+        index = interned(node.operation, std::move(operands), 0.0, arrays_->name_of(*node.array));
+      }
+      break;
     default:
       index = simplified(node.operation, std::move(operands));
   }

@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "tyndall/export/array_names.h"
 #include "tyndall/number/symbol.h"
 
 namespace tyndall {
@@ -14,7 +15,7 @@ namespace tyndall {
 struct Expression {
   Operation operation;
   double value = 0.0;
-  std::string text;           // an input's name
+  std::string text;           // an input's name; the name of the array that a lookup reads
   std::vector<int> operands;  // indices, all smaller than this node's
   std::string name;           // as the law's author called it; may be empty
   bool is_constant() const { return operation == Operation::constant && name.empty(); }
@@ -22,6 +23,8 @@ struct Expression {
 
 class ExpressionGraph {
  public:
+  /// `arrays` names the arrays that symbols read; it must outlive the graph.
+  explicit ExpressionGraph(const ArrayNames& arrays) : arrays_(&arrays) {}
   /// The node that stands for a symbol. Structurally equal symbols get one node; of two names for it the first stays.
   int add(const Symbol& symbol);
   const Expression& operator[](int i) const { return nodes_[static_cast<std::size_t>(i)]; }
@@ -35,6 +38,7 @@ class ExpressionGraph {
   bool is(int node, double constant) const;
   bool is_power_of_two(int node) const;  // a positive one of moderate size
 
+  const ArrayNames* arrays_;
   std::vector<Expression> nodes_;
   std::map<Key, int> known_;
   std::unordered_map<const SymbolNode*, int> seen_;

@@ -47,6 +47,8 @@ std::string_view noun(Operation operation) {
       return "larger";
     case Operation::select:
       return "chosen";
+    case Operation::lookup:
+      return "entry";
     default:
       return "value";
   }
@@ -76,15 +78,17 @@ std::string helper_name(Operation operation) {
   }
 }
 
-FunctionPrinter::FunctionPrinter(const Dialect& dialect, const FunctionText& function)
+FunctionPrinter::FunctionPrinter(const Dialect& dialect, const FunctionText& function, const ArrayNames& arrays)
     : dialect_(dialect),
       function_(function),
+      graph_(arrays),
       outputs_(nodes_of(function.outputs, graph_)),
       plan_(graph_, outputs_, dialect.select_is_call),
       identifiers_(static_cast<std::size_t>(graph_.size())) {
   for (const FunctionParameter& parameter : function.parameters) taken_.insert(parameter.name);
   for (const std::string_view word : dialect.reserved) taken_.emplace(word);
   taken_.insert(function.name);
+  for (const ArrayNames::Entry& entry : arrays.entries()) taken_.insert(entry.name);
   // What is returned has the first right to its name.
   for (const int output : outputs_)
     if (plan_.is_local(output) && !graph_[output].name.empty() && kept_names_.count(output) == 0)
@@ -284,6 +288,8 @@ FunctionPrinter::Piece FunctionPrinter::piece(int node) const {
       return infix("<=", comparison);
     case Operation::greater_equal:
       return infix(">=", comparison);
+    case Operation::lookup:
+      return {fill_pattern(dialect_.lookup, {{"name", e.text}, {"x", piece(e.operands[0]).text}}), atom};
     case Operation::select: {
       const int least = dialect_.select_is_call ? choice : comparison;
       return {fill_pattern(dialect_.select, {{"mask", operand(e.operands[0], least)},

@@ -15,7 +15,8 @@ namespace tyndall {
 /// Prints one function.
 class FunctionPrinter {
  public:
-  FunctionPrinter(const Dialect& dialect, const FunctionText& function);
+  /// `arrays` names the arrays that the function reads.
+  FunctionPrinter(const Dialect& dialect, const FunctionText& function, const ArrayNames& arrays);
   std::string text();
 
  private:

@@ -22,14 +22,16 @@ struct FunctionText {
   std::string name;
   std::vector<FunctionParameter> parameters;
   std::vector<Symbol> outputs;
-  std::string comment;  // printed above it, a comment line for each line
+  std::string comment = {};  // printed above it, a comment line for each line
+  std::string prefix = {};   // of the names of constant arrays that it reads
 };
 
-/// The function alone. It may call helpers, see print_functions.
+/// The function alone. It may call helpers and read arrays, see print_functions.
 std::string print_function(const Dialect& dialect, const FunctionText& function);
 
-/// All functions in their order, above them each helper that they need, once. Helpers stand for elementary functions
-/// that the language lacks; their own text is that of elementary.h.
+/// All functions in their order, above them each helper and each constant array that they need, once. Helpers stand for
+/// elementary functions that the language lacks; their own text is that of elementary.h. Arrays of equal numbers are
+/// one.
 std::string print_functions(const Dialect& dialect, std::span<const FunctionText> functions);
 
 /// One function with its helpers in GLSL; every input is a number.

@@ -1,5 +1,8 @@
 #include "tyndall/export/law_functions.h"
 
+#include <algorithm>
+
+#include "tyndall/number/described.h"
 #include "tyndall/phase/law_as.h"
 
 namespace tyndall {
@@ -25,6 +28,27 @@ std::vector<double> law_parameters(const Law<double>& law) {
   });
   return out;
 }
+
+namespace {
+
+/// What the tables of a law lack in shaders; empty where they lack nothing.
+std::string thinning_comment(const Law<Symbol>& law) {
+  if (const auto* mixture = std::get_if<Mixture<Symbol>>(&law)) {
+    std::string text;
+    for (const auto& part : mixture->parts) text += thinning_comment(part.phase);
+    return text;
+  }
+  const auto* const table = std::get_if<Tabulated<Symbol>>(&law);
+  if (table == nullptr || table->size() <= knots_kept<Symbol> - 2) return {};
+  double error = 0.0;
+  for (std::size_t c = 0; c < channel_count; ++c) error = std::max(error, table->thinning_error(c));
+  if (error == 0.0) return {};
+  return "\nA table of " + std::to_string(table->size()) + " angles, thinned to " + std::to_string(knots_kept<Symbol>) +
+         ": that changes the density by at most " + short_number(100.0 * error) +
+         " % (of what is\nthere, or of a thousandth of the isotropic density where that is more).";
+}
+
+}  // namespace
 
 std::vector<FunctionText> law_functions(std::string_view prefix, const Law<double>& law, int last_moment) {
   const SymbolicLaw symbolic = symbolic_law(law);
@@ -61,6 +85,8 @@ std::vector<FunctionText> law_functions(std::string_view prefix, const Law<doubl
                    {moment(symbolic.law, l)},
                    "Legendre moment of order " + order + "."});
   }
+  for (FunctionText& function : out) function.prefix = start;
+  out.front().comment += thinning_comment(symbolic.law);
   return out;
 }
 

@@ -200,5 +200,61 @@ TEST(Glsl, LoopsMeanWhatTheyMeanInCpp) {
   }
 }
 
+// Arrays: searched and read where the index differs from run to run; equal ones are written once, others apart.
+TEST(Glsl, ReadsConstantArrays) {
+  const SharedArray knots = constant_array("knots", {-2.0, -0.5, 0.0, 0.1, 0.7, 3.0, 1e6});
+  const SharedArray same = constant_array("knots", knots->values());
+  const SharedArray values = constant_array("knots", {5.0, -1.25, 3e-7, 2.0, 8.0, 1e9, 1.0 / 3.0});
+  const auto text = [&]<class T>(const T& x) -> T {
+    const T i = last_not_above(knots, T(0.0), 5, x);
+    const T below = lookup(same, i), above = lookup(knots, i + T(1.0));
+    return lookup(values, i) + (x - below) / (above - below) * lookup(values, i + T(1.0));
+  };
+  const std::string functions = glsl_function("f", {"x"}, {text(Symbol::input("x"))});
+  EXPECT_EQ(functions.find("const float knots[7] = float[7](-2.0, -0.5, 0.0, 0.1, 0.7, 3.0, 1.0e+06);"), 0U)
+      << functions;
+  EXPECT_NE(functions.find("const float knots_b[7] = float[7](5.0, "), std::string::npos) << functions;
+  EXPECT_EQ(functions.find("knots_c"), std::string::npos) << functions;
+  std::vector<float> given;
+  for (float x = -2.5F; x < 4.0F; x += 0.0625F) given.push_back(x);
+  const std::vector<float> found = machine().run(functions, "  found(0u, f(given(0u)));\n", given, 1, 1);
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    const double expected = text(static_cast<double>(given[i]));
+    EXPECT_NEAR(static_cast<double>(found[i]), expected, 1e-6 * std::fabs(expected)) << given[i];
+  }
+}
+
+// A table longer than shaders keep is thinned, and the text says by how much; the shader is that near the whole table.
+TEST(Glsl, SaysByHowMuchATableIsThinned) {
+  Tabulated<double> table;
+  for (int i = 0; i < 2000; ++i) {
+    const double angle = i == 0 ? 0.0 : 0.02 * std::pow(9000.0, (i - 1.0) / 1998.0);
+    table.angles.push_back(std::min(angle, 180.0));
+    const auto d = Deflection<double>::from_angle(table.angles.back() * std::numbers::pi / 180.0);
+    table.values.push_back(Spectrum::grey(density(Law<double>(HenyeyGreenstein<double>{0.95}), d)));
+  }
+  const std::string functions = print_functions(glsl_dialect(), law_functions("cloud", table));
+  EXPECT_NE(functions.find("const float cloud_position[1024]"), std::string::npos);
+  const std::string words = "// A table of 2000 angles, thinned to 512: that changes the density by at most ";
+  const std::size_t at = functions.find(words);
+  ASSERT_NE(at, std::string::npos) << functions.substr(0, 2000);
+  const double percent = std::stod(functions.substr(at + words.size()));
+  EXPECT_LT(percent, 0.1);
+  const LobeSum<double> lobes = lower(Law<double>(table));
+  std::vector<float> given;
+  for (float angle = 1e-4F; angle < 3.14F; angle *= 1.01F) given.push_back(angle);
+  const std::vector<float> found =
+      machine().run(functions,
+                    "  float s = sin(0.5 * given(0u));\n  float u = 2.0 * s * s;\n"
+                    "  found(0u, u);\n  found(1u, cloud_density(vec3(1.0 - u, u, 2.0 - u)));\n",
+                    given, 1, 2);
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    const double u = static_cast<double>(found[2 * i]),
+                 expected = density(lobes, Deflection<double>::from_ends(u, 2.0 - u));
+    const double scale = std::max(expected, 1e-3 / (4.0 * std::numbers::pi));
+    EXPECT_NEAR(static_cast<double>(found[2 * i + 1]), expected, (0.01 * percent + 2e-6) * scale) << given[i];
+  }
+}
+
 }  // namespace
 }  // namespace tyndall

@@ -119,6 +119,7 @@ int LocalsPlan::written_length(int node) const {
   if (e.operation == Operation::input) return static_cast<int>(e.text.size()) + (e.value < 0.0 ? 0 : 2);
   if (e.operation == Operation::constant) return static_cast<int>(float_literal(e.value).size());
   const int own = strength(node);
+  if (e.operation == Operation::lookup) return static_cast<int>(e.text.size()) + 7 + shown_length(e.operands[0]);
   int sum = (own == atom ? 5 : 0) + 3 * static_cast<int>(e.operands.size() - 1);  // a function's name; operators
   for (std::size_t i = 0; i < e.operands.size(); ++i) {
     const int operand = e.operands[i];

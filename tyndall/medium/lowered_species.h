@@ -88,7 +88,27 @@ inline bool place(LoweredSpecies& species, const std::vector<Profile>& profiles,
   return all.low.x < all.high.x && all.low.y < all.high.y && all.low.z < all.high.z;
 }
 
-/// Adds the species of `medium`, as they are at a time [s], to `lowered`: overlap is addition.
+/// What a species does in one channel; nothing in the others.
+inline LoweredSpecies in_channel(LoweredSpecies species, std::size_t channel) {
+  for (Spectrum* coefficient : {&species.scattering, &species.absorption, &species.extinction}) {
+    const double here = (*coefficient)[channel];
+    *coefficient = {};
+    (*coefficient)[channel] = here;
+  }
+  return species;
+}
+
+/// Adds a species with the lobes of its law, which is the same in all its channels.
+inline void put(LoweredMedium& lowered, LoweredSpecies species, const Law<double>& law) {
+  species.first_lobe = lowered.lobes.size();
+  for (auto& lobe : merged(lower(law))) lowered.lobes.push_back(std::move(lobe));
+  species.lobe_count = lowered.lobes.size() - species.first_lobe;
+  lowered.species.push_back(std::move(species));
+}
+
+/// Adds the species of `medium`, as they are at a time [s], to `lowered`: overlap is addition. A species whose law
+/// differs by channel becomes one for each channel, alone in it: what follows knows of laws that are the same in all
+/// channels only, and mixtures, weights and densities per channel come out right.
 inline void add(LoweredMedium& lowered, const Medium& medium, double time = 0.0) {
   const Species* before = nullptr;
   for (const Species& from : medium.species) {
@@ -98,14 +118,17 @@ inline void add(LoweredMedium& lowered, const Medium& medium, double time = 0.0)
     s.absorption = from.absorption;
     s.extinction = from.extinction();
     if (!place(s, from.profiles, time)) continue;
-    s.first_lobe = lowered.lobes.size();
-    for (auto& lobe : merged(lower(from.phase))) lowered.lobes.push_back(lobe);
-    s.lobe_count = lowered.lobes.size() - s.first_lobe;
     // Only neighbours are compared: the species of one conditions come together.
     const bool same = before != nullptr && before->profiles == from.profiles;
     s.place = same ? lowered.species.back().place : lowered.species.size();
     before = &from;
-    lowered.species.push_back(std::move(s));
+    if (!is_chromatic(from.phase)) {
+      put(lowered, std::move(s), from.phase);
+      continue;
+    }
+    for (std::size_t c = 0; c < channel_count; ++c) {
+      if (s.extinction[c] > 0.0) put(lowered, in_channel(s, c), in_channel(from.phase, c));
+    }
   }
 }
 

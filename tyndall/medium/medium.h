@@ -9,9 +9,9 @@
 
 namespace tyndall {
 
-/// One kind of particle: coefficients [1/m] per channel (>= 0) where its profile is 1, an angular law, and its place.
-/// The density is multiplied by every profile of the list: an exponential haze inside a box is {exponential, box}; no
-/// profile is constant.
+/// One kind of particle: coefficients [1/m] per channel (>= 0) where its profile is 1, an angular law (tables may
+/// differ by channel, see lowered_medium.h), and its place. The density is multiplied by every profile of the list: an
+/// exponential haze inside a box is {exponential, box}; no profile is constant.
 struct Species {
   std::string name;
   Spectrum scattering, absorption;
@@ -51,10 +51,18 @@ inline Spectrum absorption_at(const Medium& medium, const Vector& p) {
   return total;
 }
 
+/// Mean cosine of a law in each channel.
+inline Spectrum mean_cosines(const Law<double>& law) {
+  Spectrum out;
+  const auto lobes = lower_channels(law);
+  for (std::size_t c = 0; c < channel_count; ++c) out[c] = mean_cosine(lobes[c]);
+  return out;
+}
+
 /// Mean cosine of the mixture per channel at a point, weighted by scattering; NaN where nothing scatters.
 inline Spectrum mean_cosine_at(const Medium& medium, const Vector& p) {
   Spectrum weighted_sum;
-  for (const Species& s : medium.species) weighted_sum += s.scattering * (mean_factor(s, p) * mean_cosine(s.phase));
+  for (const Species& s : medium.species) weighted_sum += s.scattering * mean_cosines(s.phase) * mean_factor(s, p);
   return weighted_sum / scattering_at(medium, p);
 }
 

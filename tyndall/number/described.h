@@ -8,6 +8,8 @@
 //            choice_key<Profile> = "law";  and  static constexpr std::string_view name = "box";  in BoxProfile
 //   by form (no choice_key): the alternative whose first field is present, as {"visibility": 600}; one that says
 //            static constexpr bool bare = true;  is written as its first field's value alone, as 600
+// A struct that is one thing, not dials that could stand between those of another, says
+//   static constexpr bool whole = true;  and has ==
 // A struct with demands that no single field can state has, found by argument-dependent lookup,
 //   std::optional<Objection> objection_to(const TheStruct&);
 //
@@ -63,6 +65,11 @@ concept Described = requires {
 template <class T>
 concept OneOf = std::is_enum_v<T> && requires(T x) {
   words_of(x);
+};
+
+template <class T>
+concept Whole = requires {
+  T::whole;
 };
 
 namespace kind {

@@ -1,5 +1,6 @@
 #pragma once
 // A number that carries its derivatives by N parameters (forward differentiation), for fits and inverse design.
+#include "tyndall/number/constant_array.h"
 #include "tyndall/number/scalar.h"
 
 namespace tyndall {
@@ -80,6 +81,9 @@ struct Dual {
     return y;
   }
   friend Dual select(bool mask, const Dual& yes, const Dual& no) { return mask ? yes : no; }
+  friend Dual lookup(const SharedArray& array, const Dual& index) {
+    return Dual(lookup(array, index.value), std::array<T, N>{});
+  }
 };
 
 template <Scalar T, std::size_t N>

@@ -2,6 +2,7 @@
 // One text that uses everything a number must do, for comparing numbers with each other.
 #include <vector>
 
+#include "tyndall/number/constant_array.h"
 #include "tyndall/number/scalar.h"
 
 namespace tyndall {
@@ -39,6 +40,10 @@ std::vector<T> every_operation(const T& a, const T& b) {
                      pi<T>() * a,
                      inverse_four_pi<T>() + b,
                      named("product", a * b) + T(1.0)};
+  const SharedArray knots = constant_array("knots", {-1.0, 0.0, 0.25, 0.75, 1.0, 1.5, 2.0, 4.0, 64.0, 1e9});
+  const T place = last_not_above(knots, T(1.0), 8, a);  // among the nine from the second on
+  out.push_back(place + a);
+  out.push_back(b * lookup(knots, place + T(1.0)) + a);
   T sum = a;
   sum += b;
   sum *= a;

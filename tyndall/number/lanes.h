@@ -4,6 +4,7 @@
 // x86-64").
 #include <xsimd/xsimd.hpp>
 
+#include "tyndall/number/constant_array.h"
 #include "tyndall/number/scalar.h"
 
 namespace tyndall {
@@ -27,5 +28,10 @@ struct NumberTraits<Lanes> {
 };
 
 inline Lanes with_sign_of(const Lanes& x, const Lanes& s) { return xsimd::copysign(x, s); }
+
+/// The numbers at each lane's index.
+inline Lanes lookup(const SharedArray& array, const Lanes& index) {
+  return Lanes::gather(array->data<float>(), xsimd::to_int(index));
+}
 
 }  // namespace tyndall

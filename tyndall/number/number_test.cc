@@ -39,6 +39,20 @@ TEST(Dual, AConstantHasNoDerivative) {
   EXPECT_EQ(constant.derivative, (std::array<float, 3>{}));
 }
 
+TEST(ConstantArray, IsSearchedAtKnotsBetweenThemAndOutside) {
+  const SharedArray array = constant_array("a", {9.0, 9.0, -3.0, 1.0, 1.0, 2.0, 5.0, 8.0, -9.0});
+  const std::vector<double> stretch(array->values().begin() + 2, array->values().begin() + 8);
+  for (std::size_t last = 0; last < stretch.size(); ++last) {
+    for (double key = -5.0; key < 10.0; key += 0.5) {
+      std::size_t expected = 0;
+      for (std::size_t i = 0; i <= last; ++i)
+        if (stretch[i] <= key) expected = i;
+      EXPECT_EQ(last_not_above(array, 2.0, last, key), static_cast<double>(expected)) << last << ", " << key;
+      EXPECT_EQ(last_not_above(array, 2.0F, last, static_cast<float>(key)), static_cast<float>(expected));
+    }
+  }
+}
+
 TEST(Symbol, RemembersEveryOperation) {
   const std::vector<Symbol> recorded = every_operation(Symbol::input("a"), Symbol::input("b"));
   for (const double a : {0.3, 1.7}) {

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "tyndall/number/constant_array.h"
 #include "tyndall/number/scalar.h"
 
 namespace tyndall {
@@ -41,6 +42,7 @@ enum class Operation {
   state,          // a variable of the loop that holds this very node
   loop,           // (initial..., states..., next...), a third each; value is the number of turns
   result,         // (loop): its value-th state after the last turn
+  lookup,         // (index): the array's number there
 };
 
 struct SymbolNode;
@@ -84,6 +86,8 @@ class Symbol {
   friend Symbol max(const Symbol& a, const Symbol& b) { return of(Operation::max, {a, b}); }
   friend Symbol fma(const Symbol& a, const Symbol& b, const Symbol& c) { return of(Operation::fma, {a, b, c}); }
   friend Symbol select(const SymbolMask& mask, const Symbol& yes, const Symbol& no);
+  /// The array's number at an index; the printer writes the array where every function sees it.
+  friend Symbol lookup(const SharedArray& array, const Symbol& index);
   /// The same value, to be held in a local variable of that name where it is printed.
   friend Symbol named(const char* name, const Symbol& x) { return of(Operation::named, {x}, 0.0, name); }
 
@@ -103,11 +107,13 @@ struct SymbolNode {
   double value;
   std::string text;
   std::vector<Symbol> operands;
+  SharedArray array;  // lookup: what it reads
 };
 
 inline Symbol::Symbol(double constant) : Symbol(of(Operation::constant, {}, constant)) {}
 inline Symbol Symbol::of(Operation operation, std::vector<Symbol> operands, double value, std::string text) {
-  return Symbol(std::make_shared<const SymbolNode>(SymbolNode{operation, value, std::move(text), std::move(operands)}));
+  return Symbol(
+      std::make_shared<const SymbolNode>(SymbolNode{operation, value, std::move(text), std::move(operands), nullptr}));
 }
 inline Symbol Symbol::input(std::string name, int component) {
   return of(Operation::input, {}, component, std::move(name));
@@ -117,6 +123,9 @@ inline SymbolMask operator>(const Symbol& a, const Symbol& b) { return {Symbol::
 inline SymbolMask operator<=(const Symbol& a, const Symbol& b) { return {Symbol::of(Operation::less_equal, {a, b})}; }
 inline SymbolMask operator>=(const Symbol& a, const Symbol& b) {
   return {Symbol::of(Operation::greater_equal, {a, b})};
+}
+inline Symbol lookup(const SharedArray& array, const Symbol& index) {
+  return Symbol(std::make_shared<const SymbolNode>(SymbolNode{Operation::lookup, 0.0, {}, {index}, array}));
 }
 inline Symbol select(const SymbolMask& mask, const Symbol& yes, const Symbol& no) {
   return Symbol::of(Operation::select, {mask.comparison, yes, no});

@@ -10,7 +10,8 @@
 
 namespace tyndall {
 
-/// One operation on numbers; masks are 0 and 1. Constants, inputs, states and loops are no operations on numbers: NaN.
+/// One operation on numbers; masks are 0 and 1. Constants, inputs, states, loops and
+/// lookups are no operations on numbers: NaN.
 inline double evaluate(Operation operation, std::span<const double> x) {
   switch (operation) {
     case Operation::named:
@@ -66,6 +67,7 @@ inline double evaluate(Operation operation, std::span<const double> x) {
     case Operation::state:
     case Operation::loop:
     case Operation::result:
+    case Operation::lookup:
       break;
   }
   return std::nan("");
@@ -103,6 +105,9 @@ class SymbolValue {
         result = loop_result(node.operands[0].node(), static_cast<std::size_t>(node.value), states, known);
         break;
       case Operation::loop:
+        break;
+      case Operation::lookup:
+        result = tyndall::lookup(node.array, value(node.operands[0], states, known));
         break;
       default: {
         std::vector<double> operands;

@@ -1,5 +1,7 @@
 #pragma once
 // The list of laws (phase functions), and what every law offers.
+#include <algorithm>
+#include <array>
 #include <variant>
 
 #include "tyndall/phase/cornette_shanks.h"
@@ -16,6 +18,7 @@
 #include "tyndall/phase/rayleigh.h"
 #include "tyndall/phase/schlick.h"
 #include "tyndall/phase/sum_inverse.h"
+#include "tyndall/phase/tabulated.h"
 
 namespace tyndall {
 
@@ -33,6 +36,7 @@ using Law = std::variant<Isotropic<T>,         //
                          Droplet<T>,           //
                          LambertSphere<T>,     //
                          FournierForand<T>,    //
+                         Tabulated<T>,         //
                          Mixture<T>>;
 
 template <class T>
@@ -78,6 +82,39 @@ Deflection<T> sample(const Law<T>& law, const T& xi) {
         }
       },
       law);
+}
+
+/// Whether a law differs from channel to channel (tables can).
+template <class T>
+bool is_chromatic(const Law<T>& law) {
+  if (const auto* mixture = std::get_if<Mixture<T>>(&law)) {
+    return std::any_of(mixture->parts.begin(), mixture->parts.end(),
+                       [](const MixturePart<T>& part) { return is_chromatic<T>(part.phase); });
+  }
+  const auto* const table = std::get_if<Tabulated<T>>(&law);
+  return table != nullptr && table->is_chromatic();
+}
+
+/// The law of one channel.
+template <class T>
+Law<T> in_channel(const Law<T>& law, std::size_t channel) {
+  if (const auto* table = std::get_if<Tabulated<T>>(&law); table != nullptr && table->is_chromatic())
+    return table->in_channel(channel);
+  Law<T> out = law;
+  if (auto* mixture = std::get_if<Mixture<T>>(&out)) {
+    for (MixturePart<T>& part : mixture->parts) part.phase = in_channel<T>(part.phase, channel);
+  }
+  return out;
+}
+
+/// Sums of lobes per channel.
+template <class T>
+std::array<LobeSum<T>, channel_count> lower_channels(const Law<T>& law) {
+  std::array<LobeSum<T>, channel_count> out;
+  const bool chromatic = is_chromatic(law);
+  if (!chromatic) out.fill(lower(law));
+  for (std::size_t c = 0; chromatic && c < channel_count; ++c) out[c] = lower(in_channel(law, c));
+  return out;
 }
 
 template <class T>

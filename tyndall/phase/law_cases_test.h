@@ -76,6 +76,43 @@ inline std::vector<Mixture<double>> cases_of(std::type_identity<Mixture<double>>
   return cases;
 }
 
+/// Tables: the least there can be, a peak as narrow as any with knots that follow it, both ways round, ends left out,
+/// bows and dips of clouds, as many knots as shaders keep. (Gaps without scattering: phase/tabulated_test.cc.)
+inline std::vector<Tabulated<double>> cases_of(std::type_identity<Tabulated<double>>) {
+  const auto table = [](std::vector<double> angles, const std::vector<double>& values) {
+    Tabulated<double> out{std::move(angles), {}, {}};
+    for (const double x : values) out.values.push_back(Spectrum::grey(x));
+    return out;
+  };
+  // Henyey and Greenstein's law at angles in geometric progression from the peak.
+  const auto peak = [&](double g, int count, double smallest, bool backward) {
+    std::vector<double> angles, values;
+    for (int i = 0; i <= count; ++i) {
+      const double angle = i == 0 ? 0.0 : smallest * std::pow(180.0 / smallest, (i - 1.0) / (count - 1.0));
+      const double sine = std::sin(angle * (std::acos(-1.0) / 360.0)), distance = (1.0 - g) * (1.0 - g) / (4.0 * g);
+      angles.push_back(i == count ? 180.0 : angle);
+      values.push_back(std::pow(distance + sine * sine, -1.5));
+    }
+    if (backward) {
+      std::reverse(angles.begin(), angles.end());
+      std::reverse(values.begin(), values.end());
+      for (double& angle : angles) angle = 180.0 - angle;
+    }
+    return table(angles, values);
+  };
+  return {Tabulated<double>{},
+          table({0.0, 180.0}, {3.0, 1.0}),
+          table({0.0, 180.0}, {1.0, 0.0}),
+          table({0.0, 90.0, 180.0}, {0.0, 7.0, 0.5}),
+          table({21.0, 102.0}, {2.0, 1.0}),
+          table({0.0, 2.2, 11.0, 31.0, 62.0, 90.0, 101.0, 128.0, 142.0, 155.0, 177.0, 180.0},
+                {4e4, 1500.0, 90.0, 20.0, 3.0, 0.7, 0.55, 0.8, 2.6, 1.1, 1.3, 3.9}),
+          peak(0.9, 40, 0.5, false),
+          peak(0.9, 40, 0.5, true),
+          peak(0.9999, 200, 1e-4, false),
+          peak(0.98, 511, 1e-3, false)};
+}
+
 template <class L>
 std::vector<Law<double>> law_cases() {
   const auto cases = cases_of(std::type_identity<L>{});
@@ -92,6 +129,8 @@ inline std::string words(const Law<double>& law) {
             char text[40];
             std::snprintf(text, sizeof text, ":%s=%.7g", std::string(field.name).c_str(), l.*(field.member));
             out += text;
+          } else if constexpr (requires { l.knots(0); }) {
+            if (field.name == "angles") out += " of " + std::to_string(l.size()) + " knots";
           } else {
             for (const auto& part : l.*(field.member))
               out += (out.back() == ' ' || out == l.name ? " " : " + ") + std::to_string(part.weight) + " " +

@@ -4,14 +4,16 @@
 
 namespace tyndall {
 
-/// The most parameters that a lobe may have.
+/// The most numbers that a lobe may have as parameters.
 inline constexpr std::size_t most_lobe_parameters = 4;
 
-/// `kind` is the lobe's index in the Lobe list; parameters in the order of its members.
+/// `kind` is the lobe's index in the Lobe list; parameters in the order of its members. A table is referred to, not
+/// owned: the lobe that the record was made from must outlive it.
 struct LobeRecord {
   int kind;
   float weight;
   float parameters[most_lobe_parameters];
+  const ScatteringTable* table;
 };
 
 /// The index of a lobe in the list.
@@ -26,12 +28,18 @@ constexpr int lobe_kind() {
 
 template <Scalar T>
 LobeRecord lobe_record(const WeightedLobe<T>& part) {
-  LobeRecord record{static_cast<int>(part.lobe.index()), static_cast<float>(part.weight), {}};
+  LobeRecord record{static_cast<int>(part.lobe.index()), static_cast<float>(part.weight), {}, nullptr};
   std::visit(
       [&]<template <class> class L>(const L<T>& lobe) {
         static_assert(std::tuple_size_v<decltype(L<T>::members())> <= most_lobe_parameters);
         std::size_t i = 0;
-        for_each_parameter(lobe, lobe, [&](auto& x, auto&) { record.parameters[i++] = static_cast<float>(x); });
+        for_each_parameter(lobe, lobe, [&]<class Member>(Member& x, Member&) {
+          if constexpr (std::is_same_v<Member, const SharedTable>) {
+            record.table = x.get();
+          } else {
+            record.parameters[i++] = static_cast<float>(x);
+          }
+        });
       },
       part.lobe);
   return record;
@@ -46,8 +54,13 @@ Lobe<T> lobe_of(const LobeRecord& record) {
     if (kind++ != record.kind) return;
     L<T> made;
     std::size_t i = 0;
-    for_each_parameter(
-        made, made, [&]<class Member>(Member& x, const Member&) { x = static_cast<Member>(record.parameters[i++]); });
+    for_each_parameter(made, made, [&]<class Member>(Member& x, const Member&) {
+      if constexpr (std::is_same_v<Member, SharedTable>) {
+        x = SharedTable(SharedTable(), record.table);  // refers without owning: nothing is counted or freed
+      } else {
+        x = static_cast<Member>(record.parameters[i++]);
+      }
+    });
     lobe = made;
   };
   [&]<class... Each>(std::type_identity<std::variant<Each...>>) {

@@ -15,12 +15,14 @@
 #include "tyndall/phase/power_lobe.h"
 #include "tyndall/phase/rayleigh_lobe.h"
 #include "tyndall/phase/schlick_lobe.h"
+#include "tyndall/phase/table_lobe.h"
 
 namespace tyndall {
 
 /// The closed set of lobes. Each offers density [1/sr], cdf (from mu = -1), survival (1 - cdf, without cancellation),
 /// sample (the exact inverse of cdf), moment(l); and members(), the pointers to its parameters, at most
-/// most_lobe_parameters, from which conversion, comparison and the records of kernels follow (lobe_record.h).
+/// most_lobe_parameters numbers and one table, from which conversion, comparison and the records of kernels follow
+/// (lobe_record.h).
 template <class T>
 using Lobe = std::variant<IsotropicLobe<T>,         //
                           RayleighLobe<T>,          //
@@ -29,7 +31,8 @@ using Lobe = std::variant<IsotropicLobe<T>,         //
                           SchlickLobe<T>,           //
                           DraineLobe<T>,            //
                           LambertSphereLobe<T>,     //
-                          FournierForandLobe<T>>;
+                          FournierForandLobe<T>,    //
+                          TableLobe<T>>;
 
 template <class T>
 struct WeightedLobe {
@@ -109,6 +112,21 @@ T survival(const LobeSum<T>& lobes, const Deflection<T>& d) {
 template <class T>
 T moment(const LobeSum<T>& lobes, int l) {
   return weighted(lobes, [&](const auto& lobe) { return lobe.moment(l); });
+}
+/// Moments 0 to `last`. A table computes all of them in little more than the time of the last.
+template <class T>
+std::vector<T> moments(const LobeSum<T>& lobes, int last) {
+  std::vector<T> out(static_cast<std::size_t>(last) + 1, T(0.0));
+  const auto add = [&](const auto& part, const auto& lobe) {
+    if constexpr (requires { lobe.moments(last); }) {
+      const auto all = lobe.moments(last);
+      for (std::size_t l = 0; l < out.size(); ++l) out[l] = out[l] + part.weight * T(all[l]);
+    } else {
+      for (std::size_t l = 0; l < out.size(); ++l) out[l] = out[l] + part.weight * lobe.moment(static_cast<int>(l));
+    }
+  };
+  for (const auto& part : lobes) std::visit([&](const auto& lobe) { add(part, lobe); }, part.lobe);
+  return out;
 }
 template <class T>
 T mean_cosine(const LobeSum<T>& lobes) {

@@ -14,19 +14,32 @@
 
 namespace tyndall {
 
-/// What tells lobes apart: kind and the bits of the parameters (0.0 and -0.0 being one value). Bits, because they order
-/// whatever a parameter holds.
+/// What tells lobes apart: kind and the bits of the parameters (0.0 and -0.0 being one value), of a table its
+/// fingerprint. Bits, because they order whatever a parameter holds.
 template <Scalar T>
 std::array<std::uint64_t, most_lobe_parameters + 1> lobe_key(const Lobe<T>& lobe) {
   std::array<std::uint64_t, most_lobe_parameters + 1> key{lobe.index()};
   std::size_t i = 1;
   std::visit(
       [&](const auto& l) {
-        for_each_parameter(
-            l, l, [&](auto& x, auto&) { key[i++] = std::bit_cast<std::uint64_t>(static_cast<double>(x) + 0.0); });
+        for_each_parameter(l, l, [&]<class Member>(Member& x, Member&) {
+          if constexpr (std::is_same_v<Member, const SharedTable>) {
+            key[i++] = x->fingerprint();
+          } else {
+            key[i++] = std::bit_cast<std::uint64_t>(static_cast<double>(x) + 0.0);
+          }
+        });
       },
       lobe);
   return key;
+}
+
+/// Whether two lobes of equal keys are equal: fingerprints of different tables may coincide.
+template <Scalar T>
+bool same_tables(const Lobe<T>& a, const Lobe<T>& b) {
+  const auto* const x = std::get_if<TableLobe<T>>(&a);
+  const auto* const y = std::get_if<TableLobe<T>>(&b);
+  return x == nullptr || y == nullptr || x->table == y->table || *x->table == *y->table;
 }
 
 /// The same sum with each lobe once, where it first stood, its weights added. Lobes are equal when kind and parameters
@@ -42,7 +55,8 @@ LobeSum<T> merged(LobeSum<T> lobes) {
   std::vector<bool> kept(lobes.size(), false);
   std::size_t first = 0;
   for (const auto& [key, place] : places) {  // of equal keys the one that stood first comes first
-    if (place == places.front().second || key != lobe_key<T>(lobes[first].lobe)) {
+    if (place == places.front().second || key != lobe_key<T>(lobes[first].lobe) ||
+        !same_tables<T>(lobes[first].lobe, lobes[place].lobe)) {
       first = place;
       kept[place] = true;
     } else {

@@ -10,7 +10,8 @@ std::vector<LobeRecord> lobe_records(const LobeSum<float>& lobes) {
 }
 
 PhaseArrays::PhaseArrays(const LobeSum<float>& lobes, InstructionSet set)
-    : lobes_(lobe_records(lobes)),
+    : kept_(lobes),
+      lobes_(lobe_records(kept_)),
       run_(choose_kernel<PhaseKernelFunction>(set, phase_kernel_baseline, phase_kernel_avx2, phase_kernel_avx512)) {
   assert(!lobes.empty());
 }

@@ -35,11 +35,12 @@ class PhaseArrays {
   PhaseKernelCall call(PhaseTask task, std::size_t count) const;
   void value(PhaseTask task, const DeflectionArrays& at, std::span<float> out) const;
 
+  LobeSum<float> kept_;  // owns the tables that the records refer to
   std::vector<LobeRecord> lobes_;
   PhaseKernelFunction run_;
 };
 
-/// The sum as plain numbers.
+/// The sum as plain numbers. Tables stay those of `lobes`, which must outlive the records.
 std::vector<LobeRecord> lobe_records(const LobeSum<float>& lobes);
 
 }  // namespace tyndall

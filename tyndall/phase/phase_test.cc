@@ -20,15 +20,23 @@ TYPED_TEST_SUITE(EachLaw, EveryLaw, LawNames);
 
 TYPED_TEST(EachLaw, IntegratesToOneOverTheSphere) {
   this->on_cases([](const Law<double>& law) {
-    EXPECT_NEAR(integral_over_sphere([&](const Deflection<double>& d) { return density(law, d); }), 1.0, 1e-10);
+    const LobeSum<double> lobes = lower(law);
+    const auto p = [&](const Deflection<double>& d) { return density(lobes, d); };
+    EXPECT_NEAR(integral_over_sphere(kinks_of(law), p), 1.0, 1e-10);
+    if (kinks_of(law).empty()) {
+      EXPECT_NEAR(integral_over_sphere(p), 1.0, 1e-10);
+    }
   });
 }
 
 TYPED_TEST(EachLaw, HasItsLegendreMoments) {
   this->on_cases([](const Law<double>& law) {
+    const LobeSum<double> lobes = lower(law);
+    const std::vector<double> kinks = kinks_of(law), all = moments(lobes, 40);
     for (int l = 0; l <= 40; ++l) {
-      const auto weighted_density = [&](const Deflection<double>& d) { return density(law, d) * legendre(l, d.mu); };
-      EXPECT_NEAR(moment(law, l), integral_over_sphere(weighted_density), 1e-10) << "l = " << l;
+      const auto weighted_density = [&](const Deflection<double>& d) { return density(lobes, d) * legendre(l, d.mu); };
+      EXPECT_NEAR(moment(law, l), integral_over_sphere(kinks, weighted_density), 1e-10) << "l = " << l;
+      EXPECT_NEAR(all[static_cast<std::size_t>(l)], moment(law, l), 1e-12) << "l = " << l;
     }
     EXPECT_DOUBLE_EQ(mean_cosine(law), moment(law, 1));
   });

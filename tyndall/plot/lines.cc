@@ -88,7 +88,7 @@ std::vector<Line> lines_of(std::span<const Subject> subjects, Quantity quantity,
 }
 
 double density_of(const Line& line, double angle) {
-  if (line.part != nullptr) return line.part->share[line.channel] * density_at(line.part->phase, angle);
+  if (line.part != nullptr) return line.part->share[line.channel] * density_at(line.part->phase[line.channel], angle);
   return density_at(line.subject->phase[line.channel], angle);
 }
 

@@ -19,10 +19,13 @@ constexpr double visible = 0.01;  // relative; less than half a line's width on 
 Subject subject_of(std::string name, const Law<double>& law) {
   Subject subject;
   subject.name = std::move(name);
-  subject.phase.fill(merged(lower(law)));
-  subject.mean_cosine = Spectrum::grey(mean_cosine(law));
+  subject.phase = lower_channels(law);
+  for (std::size_t c = 0; c < channel_count; ++c) {
+    subject.phase[c] = merged(std::move(subject.phase[c]));
+    subject.mean_cosine[c] = mean_cosine(subject.phase[c]);
+  }
   subject.albedo = Spectrum::grey(std::nan(""));
-  const auto add = [&](std::string part, double share, LobeSum<double> phase) {
+  const auto add = [&](std::string part, double share, std::array<LobeSum<double>, channel_count> phase) {
     subject.parts.push_back({std::move(part), Spectrum::grey(share), {}, std::move(phase)});
   };
   if (const auto* mixture = std::get_if<Mixture<double>>(&law)) {
@@ -30,11 +33,13 @@ Subject subject_of(std::string name, const Law<double>& law) {
     for (const auto& part : mixture->parts) total += part.weight;
     for (const auto& part : mixture->parts) {
       add(std::visit([](const auto& l) { return std::string(l.name); }, part.phase), part.weight / total,
-          lower(part.phase));
+          lower_channels(part.phase));
     }
-  } else {
+  } else if (!is_chromatic(law)) {  // else each channel is one lobe, its own
     for (const auto& lobe : subject.phase[0]) {
-      add("lobe " + std::to_string(subject.parts.size() + 1), lobe.weight, {{1.0, lobe.lobe}});
+      std::array<LobeSum<double>, channel_count> alone;
+      alone.fill({{1.0, lobe.lobe}});
+      add("lobe " + std::to_string(subject.parts.size() + 1), lobe.weight, std::move(alone));
     }
   }
   return subject;
@@ -52,7 +57,7 @@ Subject subject_of(std::string name, const Medium& medium) {
   for (const SpeciesSummary& s : summary.species) {
     const Spectrum extinction{s.extinction};
     if (is_zero(extinction)) continue;  // elsewhere
-    SubjectPart part{s.name.empty() ? s.law : s.name, {}, extinction, merged(lower(s.phase))};
+    SubjectPart part{s.name.empty() ? s.law : s.name, {}, extinction, lower_channels(s.phase)};
     for (std::size_t c = 0; c < channel_count; ++c) {
       part.share[c] = summary.scattering[c] > 0.0 ? s.scattering[c] / summary.scattering[c] : 0.0;
     }

@@ -15,7 +15,7 @@ struct SubjectPart {
   std::string name;
   Spectrum share;       // of the subject's scattering, 0 to 1
   Spectrum extinction;  // [1/m]; 0 for a law
-  LobeSum<double> phase;
+  std::array<LobeSum<double>, channel_count> phase;
 };
 
 struct Subject {

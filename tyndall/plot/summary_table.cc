@@ -50,12 +50,16 @@ std::vector<Column> columns_for(std::span<const Subject> subjects) {
         {"mean cosine", channel_count, [](const Subject& s) { return per_channel(s.mean_cosine, share_text); }});
     return columns;
   }
-  columns.push_back({"mean cosine", 1, [](const Subject& s) { return Cells{share_text(s.mean_cosine[0])}; }});
+  columns.push_back(
+      {"mean cosine", channel_count, [](const Subject& s) { return per_channel(s.mean_cosine, share_text); }});
   for (const int degrees : {0, 90, 180}) {
-    columns.push_back({"at " + std::to_string(degrees) + "\u00b0 [sr\u207b\u00b9]", 1, [degrees](const Subject& s) {
-                         const double angle = degrees * std::numbers::pi / 180.0;
-                         return Cells{quantity_text(density_at(s.phase[0], angle))};
-                       }});
+    columns.push_back(
+        {"at " + std::to_string(degrees) + "\u00b0 [sr\u207b\u00b9]", channel_count, [degrees](const Subject& s) {
+           const double angle = degrees * std::numbers::pi / 180.0;
+           Spectrum density;
+           for (std::size_t c = 0; c < channel_count; ++c) density[c] = density_at(s.phase[c], angle);
+           return per_channel(density, quantity_text);
+         }});
   }
   return columns;
 }

@@ -74,7 +74,7 @@ inline double brute_force(const Medium& medium, const Ray& ray, double end,
     for (const Species& s : medium.species) {
       depth += depth_of(s, ray.origin, p) + depth_of(s, p, from);
       const double mu = dot(travel, -ray.direction);
-      scattered += s.scattering[1] * factor(s, p) * density(s.phase, Deflection<double>::from_mu(mu));
+      scattered += s.scattering[1] * factor(s, p) * density(in_channel(s.phase, 1), Deflection<double>::from_mu(mu));
     }
     return scattered * irradiance(p) * std::exp(-depth);
   };

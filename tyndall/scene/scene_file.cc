@@ -130,7 +130,7 @@ Scene scene_of_gltf(const fs::path& file, const SceneOptions& options) {
   const auto camera = add_gltf(scene, file, 1.0, options.allow_path);
   complete_view(scene, camera, false, false);
   if (!options.medium.empty()) {
-    const MediumFile medium = read_medium_file(options.medium);
+    const MediumFile medium = read_medium_file(options.medium, options.allow_path);
     note_remarks(scene, medium, options.medium.string(), "");
     scene.medium = compile(medium, options.medium.string());
   }
@@ -152,7 +152,7 @@ class Assembly {
     scene_.integrator = description.integrator;
     if (description.film) scene_.film = *description.film;
     if (!options_.medium.empty()) {
-      add_medium(read_medium_file(options_.medium), options_.medium.string(), "", {});
+      add_medium(read_medium_file(options_.medium, options_.allow_path), options_.medium.string(), "", {});
     } else if (description.medium) {
       add_medium(*description.medium, root_.at("medium"), {});
     }
@@ -204,7 +204,7 @@ class Assembly {
   void add_medium(const MediumReference& reference, const JsonCursor& at, const std::vector<Profile>& profiles) {
     if (const auto* name = std::get_if<MediumName>(&reference)) {
       const fs::path path = named(name->file, at);
-      add_medium(read_medium_file(path), path.string(), "", profiles);
+      add_medium(read_medium_file(path, options_.allow_path), path.string(), "", profiles);
     } else {
       add_medium(medium_file_at(at), at.file(), at.pointer(), profiles);
     }
@@ -280,7 +280,7 @@ void complete_medium(Json& owner, const Json& meters_per_unit) {
 
 Scene read_scene(const fs::path& file, const SceneOptions& options) {
   if (is_gltf(file)) return scene_of_gltf(file, options);
-  JsonText json = read_json(file);
+  JsonText json = read_json(file, options.allow_path);
   if (json.root.is_object()) {
     const Json unit = json.root.value("meters_per_unit", Json{});
     complete_medium(json.root, unit);
