@@ -34,6 +34,13 @@ BEYOND_A_SCHEMA = {
     "medium_name_empty.scene.json",
     "medium_outside.scene.json",
     "second_environment.scene.json",
+    "table_absolute_file.medium.json",
+    "table_falling.medium.json",  # one angle against another
+    "table_file_is_folder.medium.json",
+    "table_of_nothing.medium.json",  # two empty lists
+    "table_of_one.medium.json",
+    "table_of_zeros.medium.json",
+    "table_too_few_values.medium.json",  # one list against the other
     "unit_too_small.medium.json",
     "volume_box_inside_out.scene.json",
 }

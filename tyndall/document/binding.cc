@@ -43,8 +43,10 @@ int read_integer(const JsonCursor& at, const FieldFacts& facts) {
 NumberFile read_number_file(const JsonCursor& at, const FieldFacts& facts) {
   if (!at.value().is_string()) throw at.wrong_type(expected_value<NumberFile>(facts));
   const auto& name = at.value().get_ref<const std::string&>();
-  if (!at.references())
-    throw at.fault("the name of a file, in a text that stands in no folder", "the numbers themselves");
+  if (!at.references()) {
+    throw at.fault("the file name " + in_quotes(name, 100) + ", in a text that stands in no folder",
+                   "the numbers themselves");
+  }
   const ReferenceRule& rule = *at.references();
   const auto path = referenced_file(rule.naming, name, rule.allow_path, at.fault("", "").where);
   return {name, path.string(), std::make_shared<const NumberRows>(read_number_rows(path))};

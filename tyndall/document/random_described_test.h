@@ -1,6 +1,7 @@
 #pragma once
 // Random values of anything described, from the descriptions alone: what joins a list of laws, profiles, densities or
 // models is drawn here the day it joins.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -117,12 +118,26 @@ class Chosen {
         if (index++ == chosen) out = value<A>({}, depth + 1);
       });
       return out;
+    } else if constexpr (std::is_same_v<T, Tabulated<double>>) {
+      return table();
     } else {
       return described<T>(depth);
     }
   }
 
  private:
+  /// Mostly a sound one. Its numbers are its own: what names a file is tested in number_rows_test.cc.
+  Tabulated<double> table() {
+    Tabulated<double> out;
+    for (std::size_t n = 2 + below(4); n > 0; --n) {
+      out.angles.push_back(number({0.0, 180.0}));
+      out.values.push_back(value<Spectrum>({"values", not_negative, "", ""}));
+    }
+    if (!one_in(8)) std::sort(out.angles.begin(), out.angles.end());
+    if (one_in(16)) out.values.pop_back();
+    return out;
+  }
+
   /// Mostly one that nothing objects to.
   template <Described T>
   T described(int depth) {

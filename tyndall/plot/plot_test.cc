@@ -252,7 +252,7 @@ TEST(PlotCurves, AroundTheCentreAreTheDensityOfEveryChannelAndSpecies) {
         double expected = density_at(subject.phase[channel], angle);
         for (const SubjectPart& part : subject.parts) {
           if (part.name == curve.names.at("data-part")) {
-            expected = part.share[channel] * density_at(part.phase, angle);
+            expected = part.share[channel] * density_at(part.phase[channel], angle);
           }
         }
         const double drawn = panel.value("radius-axis", radius), slack = panel.value("radius-axis", radius + 0.01);
