@@ -35,9 +35,9 @@ double integral_over_sphere(const std::vector<double>& kinks, Function f) {
     const Deflection<double> d = at_log_odds(s);
     return f(d) * d.one_minus * d.one_plus;
   };
-  std::vector<double> cuts{-60.0};
+  std::vector<double> cuts{-90.0};
   cuts.insert(cuts.end(), kinks.begin(), kinks.end());
-  cuts.push_back(60.0);
+  cuts.push_back(90.0);
   double sum = 0.0;
   for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
     const int pieces = 1 + static_cast<int>((cuts[i + 1] - cuts[i]) * 16.0);
