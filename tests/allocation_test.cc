@@ -119,5 +119,24 @@ TEST(Allocation, ThereIsNoneOnRaysThroughALoweredMedium) {
   EXPECT_GT(collisions, 300);  // of both runs
 }
 
+TEST(Allocation, ThereIsNoneWhenCoefficientsChangeFromFrameToFrame) {
+  const LoweredMedium whole = everything();
+  LoweredMedium now = whole;
+  std::vector<Stretch> stretches;
+  double before = 1.0;
+  const std::size_t count = allocations_of([&] {
+    for (int frame = 0; frame <= 10; ++frame) {
+      for (std::size_t i = 0; i < now.species.size(); ++i) {
+        now.species[i].extinction = whole.species[i].extinction * (frame / 10.0);
+      }
+      const Ray ray{{-60.0, 3.0, 0.0}, {1.0, 0.0, 0.0}};
+      const double through = transmittance(now, ray, 120.0, stretches)[1];
+      EXPECT_TRUE(frame == 0 ? through == 1.0 : through < before) << frame;
+      before = through;
+    }
+  });
+  EXPECT_EQ(count, 0u);
+}
+
 }  // namespace
 }  // namespace tyndall

@@ -6,7 +6,7 @@
 
 On the page `<!-- walk.cc: ray -->` above a block of code names the part of tests/snippets/walk.cc between `// [ray]` and
 `// [end]`, and `<!-- walk.cc prints -->` stands above what the program prints. Each program is built as strangers do, from
-the package installed under P: with find_package by the first compiler, with a plain -I by every one. Those --built come
+the package installed under P: with find_package by the first compiler, with a plain -I by the last. Those --built come
 from this build, because they need one of its compiled libraries.
 """
 import argparse
@@ -86,6 +86,7 @@ def main():
     arguments = parser.parse_args()
     if arguments.fix:
         return fix()
+    arguments.prefix = os.path.abspath(arguments.prefix)
     prints = page_is_the_code()
     built = dict(pair.split("=", 1) for pair in arguments.built)
     installed = sorted(set(prints) - set(built))
@@ -94,14 +95,13 @@ def main():
         source, build = os.path.join(scratch, "source"), os.path.join(scratch, "build")
         shutil.copytree(HERE, source)
 
-        def with_plain_path(compiler, name):
-            program = os.path.join(scratch, f"{os.path.basename(compiler)}_{name}")
-            run(compiler, *FLAGS, "-I", os.path.join(arguments.prefix, "include"), os.path.join(source, name + ".cc"), "-o", program)
+        def with_plain_path(name):
+            program = os.path.join(scratch, "plain_" + name)
+            run(arguments.compilers[-1], *FLAGS, "-I", os.path.join(arguments.prefix, "include"), os.path.join(source, name + ".cc"), "-o", program)
             return program
 
         with concurrent.futures.ThreadPoolExecutor(2) as pool:
-            jobs = [(name, pool.submit(with_plain_path, compiler, name)) for compiler in arguments.compilers for name in installed]
-            programs = [(name, job.result()) for name, job in jobs]
+            programs = list(zip(installed, pool.map(with_plain_path, installed)))
         run(arguments.cmake, "-S", source, "-B", build, "-G", "Ninja", "-DSNIPPETS=" + ";".join(installed),
             "-DCMAKE_BUILD_TYPE=Debug", "-DCMAKE_CXX_COMPILER=" + arguments.compilers[0],
             "-DCMAKE_PREFIX_PATH=" + arguments.prefix, "-DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF")

@@ -1,14 +1,15 @@
 // compare.mjs MODULE.wasm NATIVE: runs the module and compares each of its numbers with what the program NATIVE prints.
 //
 // Laws made of arithmetic, square roots and fused multiply-adds alone agree to the bit. The others call exp, log, ... of
-// two C libraries (musl here, glibc there, which itself differs between processors), each within an ulp or so.
+// two C libraries (musl here, glibc there, which itself differs between processors), each within an ulp or so;
+// what iterates on them (the inverse of a mixture's cdf) gathers some.
 import { execFileSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 
 const identical = /^(isotropic|henyey_greenstein) /;
 const bounds = [
-  [/ float$/, 1e-6],  // relative
-  [/./, 1e-13],
+  [/ float$/, 3e-7],  // relative
+  [/./, 2e-14],
 ];
 
 const [modulePath, native] = process.argv.slice(2);
