@@ -10,7 +10,7 @@ FLAGS = "-std=c++20 -fno-exceptions -fno-rtti -Wall -Wextra -Wconversion -Werror
 
 
 def main():
-    include = os.path.join(sys.argv[1], "include")
+    include = os.path.abspath(os.path.join(sys.argv[1], "include"))
     headers = sorted(os.path.relpath(os.path.join(folder, name), include)
                      for folder, _, names in os.walk(include) for name in names if name.endswith(".h"))
     assert len(headers) > 60, headers
@@ -18,7 +18,7 @@ def main():
     def complaint(job):
         compiler, header = job
         done = subprocess.run([compiler, *FLAGS, "-I", include], input=f'#include "{header}"\n#include "{header}"\n',
-                              capture_output=True, text=True, check=False)
+                              capture_output=True, text=True, check=False, cwd="/")  # quotes look there first
         return f"{compiler}: {header}\n{done.stderr}" if done.returncode else ""
 
     compilers = sys.argv[2:]
