@@ -1,7 +1,7 @@
 # What Tyndall uses of other people's work, and the targets that folders may LINK:
 #   embree  tinygltf::tinygltf  OpenEXR::OpenEXR  PNG::PNG  stb::stb  nlohmann_json::nlohmann_json  CLI11::CLI11
 #   TBB::tbb  xsimd  cairo::cairo  Threads::Threads        and for tests  GTest::gmock  rapidcheck  egl::gles
-#   python::jsonschema (defines TYNDALL_PYTHON)
+#   python::jsonschema (defines TYNDALL_PYTHON)  webassembly (TYNDALL_WASM_CLANG, TYNDALL_NODE)
 #
 # TYNDALL_WITH_<PART> is AUTO (used when found), ON (an error when not found; TYNDALL_REQUIRE_ALL=ON makes every AUTO
 # an ON) or OFF. Whatever links a part that is not there is not built, and the end of configure says so.
@@ -114,6 +114,21 @@ if(TYNDALL_BUILD_TESTS)
       endif()
     endif()
   endforeach()
+  # WebAssembly: clang with WASI's C and C++ libraries, and node to run what it makes.
+  find_program(TYNDALL_WASM_CLANG NAMES clang++-14 clang++)
+  find_program(TYNDALL_NODE NAMES node nodejs)
+  mark_as_advanced(TYNDALL_WASM_CLANG TYNDALL_NODE)
+  if(TYNDALL_WASM_CLANG AND TYNDALL_NODE)
+    file(WRITE "${PROJECT_BINARY_DIR}/webassembly/probe.cc" "#include <vector>\nstd::vector<int> v(3);\n")
+    execute_process(COMMAND ${TYNDALL_WASM_CLANG} --target=wasm32-wasi -mexec-model=reactor -fno-exceptions
+      "${PROJECT_BINARY_DIR}/webassembly/probe.cc" -o "${PROJECT_BINARY_DIR}/webassembly/probe.wasm"
+      RESULT_VARIABLE lacks OUTPUT_QUIET ERROR_QUIET)
+    if(NOT lacks)
+      add_library(webassembly INTERFACE IMPORTED GLOBAL)
+    endif()
+  endif()
+  tyndall_component(WEBASSEMBLY "clang-14 with wasi-libc, libc++-14-dev-wasm32 and libclang-rt-14-dev-wasm32, or nodejs,"
+    "Tests in WebAssembly" TARGETS webassembly)
   tyndall_component(JSONSCHEMA python3-jsonschema "Tests of the schemas (python3-jsonschema)" TARGETS python::jsonschema)
   tyndall_component(RAPIDCHECK librapidcheck-dev "Property tests (rapidcheck)" TARGETS rapidcheck)
   tyndall_component(EGL "libegl-dev libgles-dev" "Tests that execute shaders (EGL, OpenGL ES)" TARGETS egl::gles)

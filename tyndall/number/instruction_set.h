@@ -11,14 +11,16 @@ inline std::string_view name_of(InstructionSet set) {
   return set == InstructionSet::avx512 ? "avx512" : set == InstructionSet::avx2 ? "avx2" : "baseline";
 }
 
-/// The widest set of this processor.
+/// The widest set of this processor; baseline where it is no x86-64 (WebAssembly, ARM).
 inline InstructionSet best_instruction_set() {
+#if defined(__x86_64__)
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
       __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512cd")) {
     return InstructionSet::avx512;
   }
-  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") ? InstructionSet::avx2
-                                                                         : InstructionSet::baseline;
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return InstructionSet::avx2;
+#endif
+  return InstructionSet::baseline;
 }
 
 /// The entry of a kernel for `set`.
