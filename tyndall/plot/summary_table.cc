@@ -8,6 +8,7 @@
 #include <string>
 
 #include "tyndall/plot/axis.h"
+#include "tyndall/plot/lines.h"
 #include "tyndall/plot/style.h"
 #include "tyndall/plot/text_width.h"
 
@@ -50,16 +51,18 @@ std::vector<Column> columns_for(std::span<const Subject> subjects) {
         {"mean cosine", channel_count, [](const Subject& s) { return per_channel(s.mean_cosine, share_text); }});
     return columns;
   }
-  columns.push_back(
-      {"mean cosine", channel_count, [](const Subject& s) { return per_channel(s.mean_cosine, share_text); }});
+  // Laws may be tables that differ by channel.
+  const bool coloured =
+      std::any_of(subjects.begin(), subjects.end(), [](const Subject& s) { return is_coloured(s, Quantity::phase); });
+  const std::size_t cells = coloured ? channel_count : 1;
+  columns.push_back({"mean cosine", cells, [](const Subject& s) { return per_channel(s.mean_cosine, share_text); }});
   for (const int degrees : {0, 90, 180}) {
-    columns.push_back(
-        {"at " + std::to_string(degrees) + "\u00b0 [sr\u207b\u00b9]", channel_count, [degrees](const Subject& s) {
-           const double angle = degrees * std::numbers::pi / 180.0;
-           Spectrum density;
-           for (std::size_t c = 0; c < channel_count; ++c) density[c] = density_at(s.phase[c], angle);
-           return per_channel(density, quantity_text);
-         }});
+    columns.push_back({"at " + std::to_string(degrees) + "\u00b0 [sr\u207b\u00b9]", cells, [degrees](const Subject& s) {
+                         const double angle = degrees * std::numbers::pi / 180.0;
+                         Spectrum density;
+                         for (std::size_t c = 0; c < channel_count; ++c) density[c] = density_at(s.phase[c], angle);
+                         return per_channel(density, quantity_text);
+                       }});
   }
   return columns;
 }
