@@ -52,7 +52,8 @@ SingleSky::SingleSky(const EnvironmentLight* light, int most_suns) : light_(ligh
       if (luminance(mean_[i]) > limit) order.push_back(i);
     } else {
       // A panorama coarser than the cells: one pixel covers several.
-      const double polar = (static_cast<double>(i / columns) + 0.5) * std::numbers::pi / rows;
+      const std::size_t row = i / columns;
+      const double polar = (static_cast<double>(row) + 0.5) * std::numbers::pi / rows;
       const double azimuth = ((static_cast<double>(i % columns) + 0.5) / columns - 0.5) * two_pi;
       mean_[i] = tyndall::radiance(
           *light, {std::sin(polar) * std::sin(azimuth), std::cos(polar), -std::sin(polar) * std::cos(azimuth)});
