@@ -15,6 +15,8 @@ install(FILES "${PROJECT_BINARY_DIR}/package/tyndallConfig.cmake"
   "${PROJECT_BINARY_DIR}/package/tyndallConfigVersion.cmake" DESTINATION "${where}")
 install(FILES "${PROJECT_SOURCE_DIR}/schema/tyndall-medium-1.schema.json"
   "${PROJECT_SOURCE_DIR}/schema/tyndall-scene-1.schema.json" DESTINATION "${CMAKE_INSTALL_DATADIR}/tyndall/schema")
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/presets" DESTINATION "${CMAKE_INSTALL_DATADIR}/tyndall"
+  FILES_MATCHING PATTERN "*.medium.json")
 if(TARGET tyndall_cli)
   install(TARGETS tyndall_cli RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
 endif()

@@ -7,6 +7,7 @@
 #include "tyndall/cli/warnings.h"
 #include "tyndall/document/binding.h"
 #include "tyndall/document/medium_blend.h"
+#include "tyndall/document/named_medium.h"
 
 namespace tyndall {
 namespace {
@@ -30,7 +31,8 @@ void blend(const BlendOptions& options) {
     throw Fault("--at", "the number " + short_number(options.at), "a number from 0 (the first) to 1 (the second)");
   }
   const BlendHow how = how_of(options.how);
-  MediumFile a = read_medium_file(options.a, options.allow_path), b = read_medium_file(options.b, options.allow_path);
+  MediumFile a = read_named_medium(options.a, options.allow_path).file;
+  MediumFile b = read_named_medium(options.b, options.allow_path).file;
   move_schema(a, options.a, options.out);
   move_schema(b, options.b, options.out);
   if (channels_of(a) != channels_of(b)) {
@@ -47,8 +49,8 @@ void blend(const BlendOptions& options) {
 void add_blend(CLI::App& app) {
   auto options = std::make_shared<BlendOptions>();
   CLI::App* command = app.add_subcommand("blend", "Make a medium that stands between two");
-  command->add_option("A", options->a, "Medium file to start from")->required();
-  command->add_option("B", options->b, "Medium file to go to")->required();
+  command->add_option("A", options->a, "Medium file or preset to start from")->required();
+  command->add_option("B", options->b, "Medium file or preset to go to")->required();
   command->add_option("--at", options->at, "How far: 0 is A, 1 is B")->required();
   command->add_option("--how", options->how, "interpolate, mix or morph")->capture_default_str();
   command->add_option("-o,--output", options->out, "Medium file to write (*.medium.json)")->required();

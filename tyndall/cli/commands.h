@@ -8,6 +8,7 @@ namespace tyndall {
 void add_blend(CLI::App& app);
 void add_phase(CLI::App& app);
 void add_plot(CLI::App& app);
+void add_presets(CLI::App& app);
 void add_probe(CLI::App& app);
 void add_render(CLI::App& app);
 void add_schema(CLI::App& app);

@@ -13,8 +13,8 @@
 #include "tyndall/cli/table.h"
 #include "tyndall/cli/warnings.h"
 #include "tyndall/document/law_text.h"
-#include "tyndall/document/medium_file.h"
 #include "tyndall/document/medium_summary.h"
+#include "tyndall/document/named_medium.h"
 #include "tyndall/document/spelling.h"
 #include "tyndall/phase/merged_lobes.h"
 
@@ -68,13 +68,7 @@ Subject subject_of(const std::string& text, bool allow_path) {
     for (auto& lobes : lower_channels(law)) out.channels.push_back(merged(std::move(lobes)));
     return out;
   }
-  std::error_code error;
-  const std::string word = text.substr(0, text.find(':'));
-  if (!std::filesystem::exists(text, error) && word.find_first_of("/.") == word.npos) {
-    throw Fault("phase", in_quotes(text) + ", neither a law nor a file",
-                "a medium file or " + one_of(word, law_names()));
-  }
-  const MediumFile file = read_medium_file(text, allow_path);
+  const MediumFile file = read_named_medium_beside_laws("phase", text, allow_path).file;
   warn(file, text);
   const auto mixture = mixture_at(compile(file, text));
   return {{mixture.begin(), mixture.end()}, std::nullopt, file.name};

@@ -9,7 +9,7 @@
 #include "tyndall/cli/arguments.h"
 #include "tyndall/cli/commands.h"
 #include "tyndall/document/law_text.h"
-#include "tyndall/document/medium_file.h"
+#include "tyndall/document/named_medium.h"
 #include "tyndall/document/spelling.h"
 #include "tyndall/document/whole_file.h"
 #include "tyndall/plot/plot.h"
@@ -54,13 +54,7 @@ std::array<std::string, channel_count> channel_names(const MediumFile& file) {
 
 Subject subject_from(const std::string& text, bool allow_path) {
   if (is_law_text(text)) return subject_of(law_title(text), law_from_text(text));
-  std::error_code error;
-  const std::string word = text.substr(0, text.find(':'));
-  if (!std::filesystem::exists(text, error) && word.find_first_of("/.") == word.npos) {
-    throw Fault("plot", in_quotes(text) + ", neither a law nor a file",
-                "a medium file or " + one_of(word, law_names()));
-  }
-  const MediumFile file = read_medium_file(text, allow_path);
+  const MediumFile file = read_named_medium_beside_laws("plot", text, allow_path).file;
   std::string name = file.name;
   if (name.empty()) name = std::filesystem::path(text).stem().stem().string();
   Subject subject = subject_of(printable(name, 120), compile(file, text));

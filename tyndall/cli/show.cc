@@ -9,6 +9,7 @@
 #include "tyndall/cli/warnings.h"
 #include "tyndall/document/medium_file.h"
 #include "tyndall/document/medium_summary.h"
+#include "tyndall/document/named_medium.h"
 #include "tyndall/document/spelling.h"
 
 namespace tyndall {
@@ -114,7 +115,7 @@ struct ShowOptions {
 };
 
 void show(const ShowOptions& options) {
-  const MediumFile file = read_medium_file(options.medium, options.allow_path);
+  const MediumFile file = read_named_medium(options.medium, options.allow_path).file;
   MediumSummary summary = summary_of(compile(file, options.medium));
   const MediumDials dials = dials_in_metres(file);
   summary.name = file.name;
@@ -134,7 +135,7 @@ void show(const ShowOptions& options) {
 void add_show(CLI::App& app) {
   auto options = std::make_shared<ShowOptions>();
   CLI::App* command = app.add_subcommand("show", "Print a medium in numbers: how far one sees, what it is made of");
-  command->add_option("MEDIUM", options->medium, "Medium file (*.medium.json)")->required();
+  command->add_option("MEDIUM", options->medium, "Medium file (*.medium.json), or the name of a preset")->required();
   command->add_flag("--json", options->json, "Print one JSON object, in SI units; infinite or undefined is null");
   add_allow_path(*command, options->allow_path);
   command->footer(

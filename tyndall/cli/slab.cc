@@ -9,7 +9,7 @@
 #include "tyndall/cli/commands.h"
 #include "tyndall/cli/table.h"
 #include "tyndall/cli/warnings.h"
-#include "tyndall/document/medium_file.h"
+#include "tyndall/document/named_medium.h"
 #include "tyndall/document/spelling.h"
 
 namespace tyndall {
@@ -82,7 +82,7 @@ void slab(const SlabOptions& options) {
   for (const double mu : options.mu) {
     if (!(mu > 0.0 && mu <= 1.0)) throw Fault("--mu", "the number " + value_text(mu), "cosines above 0, to 1");
   }
-  const MediumFile file = read_medium_file(options.medium, options.allow_path);
+  const MediumFile file = read_named_medium(options.medium, options.allow_path).file;
   request.medium = compile(file, options.medium);
   request.mu = options.mu;
   request.diffuse = options.illumination == "diffuse";
@@ -104,7 +104,7 @@ void slab(const SlabOptions& options) {
 void add_slab(CLI::App& app) {
   auto options = std::make_shared<SlabOptions>();
   CLI::App* command = app.add_subcommand("slab", "Print how much light a layer of a medium reflects and lets through");
-  command->add_option("MEDIUM", options->medium, "A medium file")->required();
+  command->add_option("MEDIUM", options->medium, "A medium file, or the name of a preset")->required();
   command->add_option("--thickness", options->thickness, "Thickness of the layer in metres, or inf")->required();
   command->add_option("--mu0", options->mu0, "Cosine of the beam to the vertical: 1 (default) is straight down")
       ->check(number_within(1e-6, 1.0));

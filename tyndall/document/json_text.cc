@@ -184,6 +184,20 @@ JsonText read_json(const std::filesystem::path& file, bool allow_path) {
   return json;
 }
 
+JsonOrigin origin_of(const JsonText& text, const std::string& pointer) {
+  for (const auto& [prefix, base] : text.bases) {
+    const bool below =
+        pointer.starts_with(prefix) && (pointer.size() == prefix.size() || pointer[prefix.size()] == '/');
+    if (!below || text.own.contains(Json::json_pointer(pointer))) continue;
+    std::string rest = pointer.substr(prefix.size());
+    if (base->bases.empty()) {
+      while (!rest.empty() && !base->root.contains(Json::json_pointer(rest))) rest.resize(rest.rfind('/'));
+    }
+    return origin_of(*base, rest);
+  }
+  return {&text, pointer};
+}
+
 JsonCursor JsonCursor::at(std::string_view key) const {
   return {text_, &value_->at(std::string(key)), joined(pointer_, key)};
 }
@@ -193,7 +207,9 @@ JsonCursor JsonCursor::at(std::size_t index) const {
 }
 
 Fault JsonCursor::fault(std::string found, std::string expected) const {
-  return {place(text_->file, line_of_pointer(text_->text, pointer_), pointer_), std::move(found), std::move(expected)};
+  const JsonOrigin origin = origin_of(*text_, pointer_);
+  return {place(origin.text->file, line_of_pointer(origin.text->text, origin.pointer), origin.pointer),
+          std::move(found), std::move(expected)};
 }
 
 DemandFault JsonCursor::fault_below(const Objection& objection) const {

@@ -2,6 +2,8 @@
 // JSON files as text with places: parsed strictly, and able to say on which line a value stands.
 #include <cstddef>
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -29,6 +31,10 @@ struct JsonText {
   std::string text;
   Json root;
   std::optional<ReferenceRule> references = {};  // none: the text stands in no folder and can name no files
+  // Where values of other texts were put under this one's (base_medium.h): by pointer, the text below the value there;
+  // and the root as this text alone has it.
+  std::map<std::string, std::shared_ptr<const JsonText>> bases = {};
+  Json own = {};
 };
 
 /// Parses UTF-8 JSON (RFC 8259) with no duplicate keys, at most deepest_json levels and only numbers that a double can
@@ -39,6 +45,14 @@ JsonText parse_json(std::string text, std::string name);
 /// Throws Fault.
 JsonText read_json(const std::filesystem::path& file, bool allow_path = false);
 
+/// The text that states a value of `text`, and its place there: the text itself, or one of its bases where only that
+/// has it. The place is that of the deepest part of the pointer that the text has.
+struct JsonOrigin {
+  const JsonText* text;
+  std::string pointer;
+};
+JsonOrigin origin_of(const JsonText& text, const std::string& pointer);
+
 /// One value of a JsonText and the way to it. Refers to the JsonText, which must outlive it.
 class JsonCursor {
  public:
@@ -48,7 +62,7 @@ class JsonCursor {
   /// RFC 6901, "" for the root.
   const std::string& pointer() const { return pointer_; }
   const std::string& file() const { return text_->file; }
-  const std::optional<ReferenceRule>& references() const { return text_->references; }
+  const std::optional<ReferenceRule>& references() const { return origin_of(*text_, pointer_).text->references; }
 
   /// A member of an object, an element of a list: it must exist.
   JsonCursor at(std::string_view key) const;

@@ -23,6 +23,8 @@ MediumFile blended(const MediumFile& a, const MediumFile& b, double t, BlendHow 
   if (t == 1.0) return b;
   MediumFile out = a;
   out.name = name_between(a, b, t);
+  out.description.reset();
+  out.sources.clear();  // of other numbers
   Blend blend;
   if (how == BlendHow::interpolate) {
     // In a's units throughout, so that a's dials stay the numbers that were typed.

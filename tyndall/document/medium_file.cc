@@ -1,5 +1,6 @@
 #include "tyndall/document/medium_file.h"
 
+#include "tyndall/document/base_medium.h"
 #include "tyndall/document/binding.h"
 #include "tyndall/document/number_rows.h"
 #include "tyndall/document/reference.h"
@@ -55,12 +56,14 @@ MediumFile medium_file_at(const JsonCursor& at) {
 }
 
 MediumFile medium_from_json(std::string text, const std::string& name_for_messages) {
-  const JsonText json = parse_json(std::move(text), name_for_messages);
+  JsonText json = parse_json(std::move(text), name_for_messages);
+  resolve_base(json);
   return medium_file_at(JsonCursor(json));
 }
 
 MediumFile read_medium_file(const std::filesystem::path& file, bool allow_path) {
-  const JsonText json = read_json(file, allow_path);
+  JsonText json = read_json(file, allow_path);
+  resolve_base(json);
   return medium_file_at(JsonCursor(json));
 }
 

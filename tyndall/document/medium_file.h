@@ -8,6 +8,7 @@
 
 #include "tyndall/artist/medium_dials.h"
 #include "tyndall/document/json_text.h"
+#include "tyndall/document/source.h"
 #include "tyndall/document/writing.h"
 
 namespace tyndall {
@@ -20,6 +21,8 @@ struct MediumFile : MediumDials {
   std::optional<std::string> schema;  // for editors; not read
   MediumFormat format = MediumFormat::version_1;
   std::string name;
+  std::optional<std::string> description;
+  std::vector<Source> sources;  // of its numbers; not computed with
   double meters_per_unit = 1.0;
   static constexpr auto fields() {
     return std::tuple_cat(
@@ -27,6 +30,8 @@ struct MediumFile : MediumDials {
             Field{"$schema", &MediumFile::schema, any_number, "", "Where editors find the format's schema."},
             Field{"format", &MediumFile::format, any_number, "", "The format of this file.", Scaling::none, true},
             Field{"name", &MediumFile::name, any_number, "", "What to call the medium."},
+            Field{"description", &MediumFile::description, any_number, "", "What it is, in a sentence."},
+            Field{"sources", &MediumFile::sources, any_number, "", "Where its numbers come from."},
             Field{"meters_per_unit", &MediumFile::meters_per_unit, positive, "m",
                   "The file's unit of length: 1 for metres, 0.01 for centimetres."}},
         MediumDials::fields());

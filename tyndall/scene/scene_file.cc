@@ -5,7 +5,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "tyndall/document/base_medium.h"
 #include "tyndall/document/binding.h"
+#include "tyndall/document/named_medium.h"
 #include "tyndall/document/reference.h"
 #include "tyndall/image/panorama.h"
 #include "tyndall/scene/gltf.h"
@@ -130,9 +132,9 @@ Scene scene_of_gltf(const fs::path& file, const SceneOptions& options) {
   const auto camera = add_gltf(scene, file, 1.0, options.allow_path);
   complete_view(scene, camera, false, false);
   if (!options.medium.empty()) {
-    const MediumFile medium = read_medium_file(options.medium, options.allow_path);
-    note_remarks(scene, medium, options.medium.string(), "");
-    scene.medium = compile(medium, options.medium.string());
+    const auto [medium, name] = read_named_medium(options.medium.string(), options.allow_path);
+    note_remarks(scene, medium, name, "");
+    scene.medium = compile(medium, name);
   }
   if (!has_light_inside(scene) && !has_light_outside(scene)) stand_in_for_light(scene, file);
   note_darkness(scene, file);
@@ -152,7 +154,8 @@ class Assembly {
     scene_.integrator = description.integrator;
     if (description.film) scene_.film = *description.film;
     if (!options_.medium.empty()) {
-      add_medium(read_medium_file(options_.medium, options_.allow_path), options_.medium.string(), "", {});
+      const auto [medium, name] = read_named_medium(options_.medium.string(), options_.allow_path);
+      add_medium(medium, name, "", {});
     } else if (description.medium) {
       add_medium(*description.medium, root_.at("medium"), {});
     }
@@ -202,9 +205,9 @@ class Assembly {
   }
 
   void add_medium(const MediumReference& reference, const JsonCursor& at, const std::vector<Profile>& profiles) {
-    if (const auto* name = std::get_if<MediumName>(&reference)) {
-      const fs::path path = named(name->file, at);
-      add_medium(read_medium_file(path, options_.allow_path), path.string(), "", profiles);
+    if (const auto* text = std::get_if<MediumName>(&reference)) {
+      const auto [medium, name] = read_named_medium(file_, text->file, options_.allow_path, at.fault("", "").where);
+      add_medium(medium, name, "", profiles);
     } else {
       add_medium(medium_file_at(at), at.file(), at.pointer(), profiles);
     }
@@ -286,6 +289,12 @@ Scene read_scene(const fs::path& file, const SceneOptions& options) {
     complete_medium(json.root, unit);
     if (json.root.contains("volumes") && json.root["volumes"].is_array()) {
       for (Json& volume : json.root["volumes"]) complete_medium(volume, unit);
+    }
+  }
+  resolve_base(json, "/medium");
+  if (json.root.is_object() && json.root.contains("volumes") && json.root["volumes"].is_array()) {
+    for (std::size_t i = 0; i < json.root["volumes"].size(); ++i) {
+      resolve_base(json, "/volumes/" + std::to_string(i) + "/medium");
     }
   }
   const JsonCursor root(json);
