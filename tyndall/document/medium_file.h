@@ -18,6 +18,10 @@ constexpr std::array<std::string_view, 1> words_of(MediumFormat) { return {"tynd
 
 /// What a medium file says, as it says it: lengths and inverse lengths in its own units.
 struct MediumFile : MediumDials {
+  /// The key by which a file builds on another medium (base_medium.h).
+  static constexpr std::string_view base_key = "base";
+  static constexpr std::string_view base_text =
+      "The medium that this one is a variant of: a file in this folder or below, or a preset.";
   std::optional<std::string> schema;  // for editors; not read
   MediumFormat format = MediumFormat::version_1;
   std::string name;

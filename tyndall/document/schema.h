@@ -46,6 +46,12 @@ bool is_example() {
   return !unusable_number(value);
 }
 
+/// A described struct that is a file and may build on another one.
+template <class T>
+concept IsFile = requires {
+  T::base_key;
+};
+
 /// The schemas of one file: choices and described structs are written once each, among the definitions, and may contain
 /// themselves.
 class SchemaBook {
@@ -100,14 +106,30 @@ class SchemaBook {
     }
   }
 
+  /// A part of a file that has a base: nothing is required, null takes away what the base says.
+  template <class T>
+  OrderedJson part_of(const FieldFacts& facts) {
+    if constexpr (ListMember<T>) {  // replaced whole
+      partial_ = false;
+      OrderedJson schema = schema_of<T>(facts);
+      partial_ = true;
+      return {{"anyOf", {std::move(schema), {{"type", "null"}}}}};
+    } else if constexpr (OptionalMember<T>) {
+      return part_of<typename T::value_type>(facts);
+    } else {
+      return {{"anyOf", {schema_of<T>(facts), {{"type", "null"}}}}};
+    }
+  }
+
   /// A reference to T's definition, which is written at its first use and named after that use.
   template <class T>
   OrderedJson defined(std::string_view use) {
-    const auto known = names_.find(typeid(T));
+    const auto known = names_.find({typeid(T), partial_});
     if (known != names_.end()) return {{"$ref", "#/definitions/" + known->second}};
-    std::string name(use);
-    for (int n = 2; definitions_.contains(name); ++n) name = std::string(use) + '_' + std::to_string(n);
-    names_.emplace(typeid(T), name);
+    const std::string wish = std::string(use) + (partial_ ? "_part" : "");
+    std::string name = wish;
+    for (int n = 2; definitions_.contains(name); ++n) name = wish + '_' + std::to_string(n);
+    names_.emplace(std::pair{std::type_index(typeid(T)), partial_}, name);
     definitions_[name] = nullptr;  // its place and name, while it is being written
     OrderedJson schema;
     if constexpr (NamedChoice<T>) {
@@ -121,23 +143,47 @@ class SchemaBook {
     return {{"$ref", "#/definitions/" + name}};
   }
 
-  /// An object with the fields of T and, where it is an alternative of a named choice, the key that names it.
+  /// A file of its own, or what differs from its base.
   template <Described T>
   OrderedJson object_schema(const std::string& tag = "", const OrderedJson& word = nullptr) {
+    if constexpr (IsFile<T>) {
+      OrderedJson schema{{"type", "object"}}, variant;
+      schema["if"] = {{"required", {T::base_key}}};
+      partial_ = true;
+      variant = plain_object_schema<T>();
+      partial_ = false;
+      variant["properties"][std::string(T::base_key)] = {{"type", "string"}, {"description", T::base_text}};
+      schema["then"] = std::move(variant);
+      schema["else"] = plain_object_schema<T>();
+      return schema;
+    } else {
+      return plain_object_schema<T>(tag, word);
+    }
+  }
+
+  /// An object with the fields of T and, where it is an alternative of a named choice, the key that names it.
+  template <Described T>
+  OrderedJson plain_object_schema(const std::string& tag = "", const OrderedJson& word = nullptr) {
     OrderedJson schema{{"type", "object"}};
     if constexpr (requires { T::text; }) schema["description"] = std::string(T::text);
     OrderedJson properties = OrderedJson::object(), required = OrderedJson::array();
     if (!tag.empty()) {
       properties[tag] = word;
-      required.push_back(tag);
+      if (!partial_) required.push_back(tag);
     }
     const T defaults{};
     for_each_field<T>([&](const auto& field) {
       const FieldFacts facts = facts_of(field);
       const auto& value = defaults.*field.member;
       using Member = std::remove_cvref_t<decltype(value)>;
-      OrderedJson property = schema_of<Member>(facts);
+      // What a file with a base requires is what the file itself does, not its parts.
+      const bool in_part = partial_ && !(field.required && IsFile<T>);
+      OrderedJson property = in_part ? part_of<Member>(facts) : schema_of<Member>(facts);
       describe(property, facts);
+      if (in_part) {
+        properties[std::string(field.name)] = std::move(property);
+        return;
+      }
       if (field.required && !completed_.contains({typeid(T), field.name})) {
         required.push_back(std::string(field.name));
       } else if constexpr (ListMember<Member> || std::is_same_v<Member, std::string>) {
@@ -151,7 +197,9 @@ class SchemaBook {
     if (!required.empty()) schema["required"] = std::move(required);
     schema["additionalProperties"] = false;
     if constexpr (requires { demands_of(defaults); }) {
-      for (const Demand& demand : demands_of(defaults)) add_demand(schema, demand);
+      for (const Demand& demand : demands_of(defaults)) {
+        if (!partial_) add_demand(schema, demand);
+      }
     }
     return schema;
   }
@@ -163,6 +211,7 @@ class SchemaBook {
     const std::string key(choice_key<V>);
     std::vector<std::string_view> words;
     std::string meanings;
+    std::set<std::string> keys;
     OrderedJson alternatives = OrderedJson::array(), examples = OrderedJson::array();
     for_each_alternative<V>([&]<class A>(std::type_identity<A>) {
       words.push_back(A::name);
@@ -170,11 +219,17 @@ class SchemaBook {
       const OrderedJson named{{"properties", {{key, {{"const", std::string(A::name)}}}}}, {"required", {key}}};
       const OrderedJson word{{"const", std::string(A::name)}, {"description", std::string(A::text)}};
       alternatives.push_back({{"if", named}, {"then", object_schema<A>(key, word)}});
-      if (is_example<A>()) examples.push_back(written(V{A{}}));
+      for_each_field<A>([&](const auto& field) { keys.insert(std::string(field.name)); });
+      if (is_example<A>() && !partial_) examples.push_back(written(V{A{}}));
     });
+    if (partial_) {  // the base says which alternative
+      alternatives.push_back(
+          {{"if", {{"not", {{"required", {key}}}}}}, {"then", {{"propertyNames", {{"enum", keys}}}}}});
+    }
     OrderedJson word = words_schema(words);
     word["description"] = meanings;
-    OrderedJson schema{{"type", "object"}, {"properties", {{key, word}}}, {"required", {key}}};
+    OrderedJson schema{{"type", "object"}, {"properties", {{key, word}}}};
+    if (!partial_) schema["required"] = {key};
     schema["allOf"] = std::move(alternatives);
     if (!examples.empty()) schema["examples"] = std::move(examples);
     return schema;
@@ -206,7 +261,7 @@ class SchemaBook {
         forms.push_back({{"required", {name}}});
         objects.push_back(object_schema<A>());
       }
-      if (is_example<A>()) examples.push_back(written(V{A{}}));
+      if (is_example<A>() && !partial_) examples.push_back(written(V{A{}}));
     });
     OrderedJson schema;
     if (!objects.empty()) types.push_back("object");
@@ -221,7 +276,9 @@ class SchemaBook {
         if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
       }
       const OrderedJson any_key{{"enum", keys}};
-      conditions.push_back({{"if", {{"type", "object"}}}, {"then", {{"propertyNames", any_key}, {"anyOf", forms}}}});
+      OrderedJson form{{"propertyNames", any_key}};
+      if (!partial_) form["anyOf"] = forms;
+      conditions.push_back({{"if", {{"type", "object"}}}, {"then", std::move(form)}});
       for (std::size_t i = 0; i < objects.size(); ++i) {
         OrderedJson has = forms[i];
         has["type"] = "object";
@@ -233,9 +290,10 @@ class SchemaBook {
     return schema;
   }
 
-  std::map<std::type_index, std::string> names_;
+  std::map<std::pair<std::type_index, bool>, std::string> names_;
   std::set<std::pair<std::type_index, std::string_view>> completed_;
   OrderedJson definitions_ = OrderedJson::object();
+  bool partial_ = false;  // within a file that has a base
 };
 
 /// The schema of medium files.
