@@ -54,6 +54,27 @@ TEST_F(Program, ShowPrintsTheKeysOfTheContract) {
   EXPECT_NEAR(json["extinction"][1].get<double>(), hazy_and_murky + 1e-4 + 1.36e-5 + 7e-5, 1e-15);
 }
 
+TEST_F(Program, PresetsAreListedPrintedAndKnownByName) {
+  const Json listed = json_of("presets");
+  ASSERT_GE(listed.at("presets").size(), 20u);
+  for (const Json& preset : listed["presets"]) {
+    const std::string name = preset.at("preset");
+    EXPECT_EQ(json_of("show " + name).at("visibility_5"), preset.at("visibility_5")) << name;
+    const Outcome text = tyndall("presets " + name);
+    write("copy.medium.json", text.out);
+    EXPECT_EQ(json_of("show copy.medium.json"), json_of("show " + name)) << name;
+    EXPECT_FALSE(preset.at("sources").empty()) << name;
+  }
+  EXPECT_THAT(tyndall("presets").out, HasSubstr("radiation_fog"));
+  EXPECT_EQ(tyndall("phase haze --at 1 --json").code, 0);
+  EXPECT_EQ(tyndall("blend radiation_fog advection_fog --at 0.5 -o between.medium.json").code, 0);
+  const Outcome unknown = tyndall("presets radiaton_fog");
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("did you mean \"radiation_fog\"?"));
+  EXPECT_THAT(tyndall("show radiaton_fog").err, HasSubstr("did you mean \"radiation_fog\"?"));
+  EXPECT_THAT(tyndall("phase radiaton_fog --at 1").err, HasSubstr("did you mean \"radiation_fog\"?"));
+}
+
 TEST_F(Program, ShowHoldsTheVisibilityThatWasTyped) {
   for (const char* w : {"0", "0.2", "0.5", "0.7", "1"}) {
     write("m.medium.json", R"({"format": "tyndall-medium/1", "meters_per_unit": 1000, "background": {"exaggeration": 3},

@@ -154,6 +154,30 @@ TEST(SceneFile, MediumOptionReplacesTheAirButNotTheVolumes) {
   EXPECT_EQ(read_scene(files.folder.path / "street.glb", options).medium.species.at(0).name, "dust");
 }
 
+TEST(SceneFile, MediaMayBePresetsAndVariants) {
+  const Files files;
+  json scene = whole();
+  scene["medium"] = "mist";
+  scene["volumes"] = json::array();
+  const Spectrum mist = files.read(scene).medium.species.at(0).extinction();
+  EXPECT_NEAR(mist[1], -std::log(0.05) / 2000.0, 1e-15);
+  EXPECT_EQ(files.read(scene, {"mist"}).medium.species.at(0).extinction(), mist);
+  // In place, in the scene's centimetres.
+  scene["medium"] = {{"base", "mist"}, {"species", {{{"density", {{"visibility", 2e4}}}}}}};
+  EXPECT_NEAR(files.read(scene).medium.species.at(0).extinction()[1], -std::log(0.05) / 200.0, 1e-15);
+  scene["volumes"] = whole()["volumes"];
+  scene["volumes"][1]["medium"] = {{"base", "air/fog.medium.json"}, {"background", {{"air", "note"}}}};
+  EXPECT_EQ(files.read(scene).medium.species.size(), 4U);
+  EXPECT_EQ(files.read(scene).medium.species.back().name, "fog");
+  scene["volumes"][1]["medium"]["base"] = "air/fgo.medium.json";
+  EXPECT_NE(files.fault_of(scene).find("at /volumes/1/medium/base: found the file name"), std::string::npos)
+      << files.fault_of(scene);
+  scene["volumes"] = json::array();
+  scene["medium"] = "msit";
+  EXPECT_NE(files.fault_of(scene).find("at /medium: found \"msit\""), std::string::npos) << files.fault_of(scene);
+  EXPECT_NE(files.fault_of(scene).find("did you mean \"mist\"?"), std::string::npos) << files.fault_of(scene);
+}
+
 TEST(SceneFile, GlbAloneIsAScene) {
   const Files files;
   const Scene s = read_scene(files.folder.path / "street.glb");
