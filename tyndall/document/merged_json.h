@@ -35,7 +35,9 @@ Json merged_members(const Json& base, const Json& upper) {
       if (states(demand.names[1]) && !states(demand.names[0])) out.erase(std::string(demand.names[0]));
     }
   }
-  for (const auto& [key, value] : upper.items()) {
+  for (const auto& member : upper.items()) {
+    const std::string& key = member.key();
+    const Json& value = member.value();
     if (value.is_null()) {
       out.erase(key);
       continue;
