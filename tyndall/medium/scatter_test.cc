@@ -192,6 +192,7 @@ void samples_follow_the_density(int count) {
     SCOPED_TRACE("medium " + std::to_string(seed - 3));
     found.judge();
   }
+  tests::say_cases(4, "media, " + std::to_string(count) + " samples each");
 }
 
 TEST(ScatterPoint, SamplesFollowTheDensity) { samples_follow_the_density(1000000); }
