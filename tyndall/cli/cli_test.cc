@@ -234,6 +234,28 @@ TEST_F(Program, PhaseAgreesWithTheReferenceDensitiesAndMoments) {
   EXPECT_GE(checked, 6);
 }
 
+TEST_F(Program, EveryFigureOfASlabHasItsStandardError) {
+  const Json json = json_of("slab mist --thickness 300 --mu0 0.6 --mu 0.1,0.5,1 --ground 0.2 --spp 20000");
+  EXPECT_EQ(json["mu"], Json::parse("[0.1, 0.5, 1]"));
+  for (const char* key : {"reflectance", "transmittance_diffuse"}) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double error = json["standard_error"][key][c], value = json[key][c];
+      EXPECT_GT(error, 0.0) << key;
+      EXPECT_LT(error, 0.05 * value) << key;
+    }
+  }
+  for (const char* key : {"reflection", "transmission"}) {
+    ASSERT_EQ(json["standard_error"][key].size(), 3u);
+    for (std::size_t m = 0; m < 3; ++m) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double error = json["standard_error"][key][m][c], value = json[key][m][c];
+        EXPECT_GT(error, 0.0) << key;
+        EXPECT_LT(error, 0.1 * value) << key;
+      }
+    }
+  }
+}
+
 TEST_F(Program, BlendStartsAtAAndEndsAtB) {
   const std::string media = example("harbour_fog") + " " + example("river_mist");
   for (const char* how : {"interpolate", "mix", "morph"}) {
