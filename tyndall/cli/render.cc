@@ -14,6 +14,7 @@
 
 #include "tyndall/cli/arguments.h"
 #include "tyndall/cli/commands.h"
+#include "tyndall/cli/long_work.h"
 #include "tyndall/cli/progress.h"
 #include "tyndall/cli/scene_arguments.h"
 #include "tyndall/document/spelling.h"
@@ -33,6 +34,7 @@ struct RenderOptions {
   int spp = 0, threads = 0;
   double exposure = 0.0;
   std::uint64_t seed = 1;
+  LongWork long_work;
   bool quiet = false;
 };
 
@@ -97,6 +99,10 @@ void check_outputs(const std::vector<std::string>& outputs) {
   }
 }
 
+Development looks_of(const RenderOptions& options) {
+  return {options.exposure, options.tone == "none" ? Tone::none : Tone::filmic};
+}
+
 /// Writes them all even if one cannot be written: the others may be all that is left of a night's work.
 void write_outputs(const RenderOptions& options, const Image& image) {
   std::exception_ptr failure;
@@ -105,7 +111,7 @@ void write_outputs(const RenderOptions& options, const Image& image) {
       if (std::filesystem::path(output).extension() == ".exr") {
         write_exr(output, image);
       } else {
-        write_png(output, image, {options.exposure, options.tone == "none" ? Tone::none : Tone::filmic});
+        write_png(output, image, looks_of(options));
       }
     } catch (...) {
       if (!failure) failure = std::current_exception();
@@ -128,21 +134,37 @@ void render_scene(const RenderOptions& options) {
   settings.max_depth = scene.integrator.max_depth;
   settings.threads = options.threads;
   settings.seed = options.seed;
-  Image image;
+  apply(options.long_work, options.spp > 0, settings);
+  FilmKeeper keeper(options.long_work, subject_of(scene, settings),
+                    [&](const std::filesystem::path& file, const SampleFilm& now) {
+                      write_png(file, developed(now, settings), looks_of(options));
+                    });
+  SampleFilm samples = keeper.film();
+  bool ended = false;
   {
     heed_signals();
     ProgressBar bar(options.quiet);
-    image = render(
-        scene, geometry, settings,
-        [&](const RenderProgress& p) {
-          char detail[64] = "";
-          if (p.noise > 0.0) std::snprintf(detail, sizeof detail, "%d samples, noise %.1f %%", p.spp, 100.0 * p.noise);
-          bar.show(p.fraction, p.seconds, detail);
-        },
-        &interrupted);
+    RenderHooks hooks;
+    hooks.report = [&](const RenderProgress& p) {
+      char detail[64] = "";
+      if (p.noise > 0.0) std::snprintf(detail, sizeof detail, "%d samples, noise %.1f %%", p.spp, 100.0 * p.noise);
+      bar.show(p.fraction, p.seconds, detail);
+    };
+    hooks.wants_film = [&] { return keeper.is_due(); };
+    hooks.save = [&](const SampleFilm& now) { keeper.save(now); };
+    hooks.stop = &interrupted;
+    ended = render(scene, geometry, settings, samples, hooks);
   }
-  write_outputs(options, image);
-  if (interrupted) {
+  // Both, even if one cannot be written.
+  std::exception_ptr failure;
+  try {
+    keeper.finish(samples);
+  } catch (...) {
+    failure = std::current_exception();
+  }
+  write_outputs(options, developed(samples, settings));
+  if (failure) std::rethrow_exception(failure);
+  if (!ended) {
     if (!options.quiet) std::fprintf(stderr, "stopped; the picture has the samples taken until then\n");
     throw CLI::RuntimeError(128 + stopping_signal);
   }
@@ -171,6 +193,7 @@ void add_render(CLI::App& app) {
       ->check(CLI::IsMember(std::vector<std::string>(tone_names.begin(), tone_names.end())));
   add_threads(*command, options->threads);
   add_seed(*command, options->seed);
+  add_long_work(*command, options->long_work);
   command->add_flag("--quiet", options->quiet, "No progress, no warnings");
   command->footer(
       "A scene is a .scene.json, or a .glb or .gltf of any modelling program. Ctrl-C stops early and writes the "
