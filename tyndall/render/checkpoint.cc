@@ -8,7 +8,6 @@
 #include "tyndall/document/whole_file.h"
 #include "tyndall/document/writing.h"
 #include "tyndall/number/digest.h"
-#include "tyndall/number/instruction_set.h"
 #include "tyndall/scene/fingerprint.h"
 
 namespace tyndall {
@@ -73,7 +72,7 @@ std::string in_words(const T& value) {
 
 }  // namespace
 
-CheckpointSubject subject_of(const Scene& scene, const RenderSettings& settings) {
+CheckpointSubject subject_of(const Scene& scene, const RenderSettings& settings, InstructionSet set) {
   CheckpointSubject subject;
   subject.scene = hexadecimal(fingerprint(scene));
   subject.seed = std::to_string(settings.seed);
@@ -81,7 +80,7 @@ CheckpointSubject subject_of(const Scene& scene, const RenderSettings& settings)
   const bool single = settings.integrator == "single";
   subject.max_depth = single ? 0 : settings.max_depth;
   subject.spp = single ? settings.spp : 0;
-  subject.instruction_set = name_of(best_instruction_set());
+  subject.instruction_set = name_of(set);
   subject.width = scene.film.width;
   subject.height = scene.film.height;
   return subject;

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "tyndall/number/field.h"
+#include "tyndall/number/instruction_set.h"
 #include "tyndall/render/film.h"
 #include "tyndall/render/render.h"
 
@@ -41,7 +42,8 @@ struct CheckpointSubject {
   }
 };
 
-CheckpointSubject subject_of(const Scene& scene, const RenderSettings& settings);
+CheckpointSubject subject_of(const Scene& scene, const RenderSettings& settings,
+                             InstructionSet set = best_instruction_set());
 
 /// Writes the film atomically: a line of JSON (the subject), the pixels' sums (little-endian, exact), a digest of both.
 /// Throws Fault, WriteFailure (whole_file.h).

@@ -4,37 +4,15 @@
 #include <chrono>
 #include <limits>
 #include <memory>
+#include <thread>
 
-#include "tyndall/render/camera.h"
 #include "tyndall/render/film.h"
 #include "tyndall/render/parallel.h"
-#include "tyndall/render/path.h"
-#include "tyndall/render/single.h"
+#include "tyndall/render/sampler.h"
+#include "tyndall/render/tile.h"
 
 namespace tyndall {
 namespace {
-
-constexpr int tile_size = 16;
-
-struct Tile {
-  int x0, y0, x1, y1;
-};
-
-std::vector<Tile> tiles_of(const SampleFilm& film, std::uint32_t order) {
-  std::vector<Tile> tiles;
-  for (int y = 0; y < film.height(); y += tile_size) {
-    for (int x = 0; x < film.width(); x += tile_size) {
-      tiles.push_back({x, y, std::min(x + tile_size, film.width()), std::min(y + tile_size, film.height())});
-    }
-  }
-  if (order != 0) {
-    RandomStream random(order, 0, 0);
-    for (std::size_t i = tiles.size(); i > 1; --i) {
-      std::swap(tiles[i - 1], tiles[static_cast<std::size_t>(random.next() * static_cast<double>(i))]);
-    }
-  }
-  return tiles;
-}
 
 /// How many samples each pixel has after the pass that follows `done`. The first gives something to look at soon;
 /// later ones grow, so that passes cost little. Always the same numbers (1, 2, 3, 4, 6, 9, ..): a picture that ends at
@@ -45,31 +23,25 @@ int next_level(int done) {
   return level;
 }
 
-/// What a picture of `single` shows: six digits at most; probes ask for more (probe.cc).
-SingleSettings picture_settings() { return {.tolerance = 1e-6, .sky_directions = 128}; }
-
 class Rendering {
  public:
-  Rendering(const Scene& scene, const Geometry& geometry, const RenderSettings& settings, SampleFilm& film,
-            const RenderHooks& hooks)
-      : geometry_(geometry),
-        settings_(settings),
+  Rendering(const RenderSettings& settings, SampleFilm& film, const RenderHooks& hooks, Sampler& sampler)
+      : settings_(settings),
         film_(film),
         hooks_(hooks),
-        camera_(scene.camera, scene.film),
-        tiles_(tiles_of(film, settings.tile_order)) {}
+        sampler_(sampler),
+        tiles_(tiles_of(film.width(), film.height(), settings.tile_order)),
+        spp_(most_samples(settings)) {}
 
-  /// Passes until an end; trace(x, y, sample, thread) adds the next sample of a pixel.
-  template <class AddSample>
-  bool passes(int spp, AddSample add) {
-    spp_ = spp;
+  /// Passes until an end; true where it was not asked to stop.
+  bool passes() {
     int done = least_samples();
     tell(done, true);
-    while (!stopped() && done < spp && !quiet_enough(done)) {
+    while (!stopped() && done < spp_ && !quiet_enough(done)) {
       const double begun = elapsed();
-      const int level = std::min({spp, next_level(done), level_in_time(done)});
+      const int level = std::min({spp_, next_level(done), level_in_time(done)});
       while (least_samples() < level && !stopped()) {
-        pass(level, add);
+        pass(level);
         if (wanted_) {
           hooks_.save(film_);
           wanted_ = false;
@@ -84,8 +56,6 @@ class Rendering {
     if (hooks_.report && ended) hooks_.report({1.0, elapsed(), noise_, done});
     return ended;
   }
-
-  const CameraRays& camera() const { return camera_; }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -107,23 +77,33 @@ class Rendering {
   }
 
   /// Brings every pixel to `level` samples, or as many until somebody wants something else.
-  template <class AddSample>
-  void pass(int level, AddSample& add) {
-    std::atomic<std::size_t> finished{0};
-    for_each_block(tiles_.size(), thread_count(settings_.threads), [&](std::size_t i, int thread) {
-      const Tile& tile = tiles_[i];
-      for (int y = tile.y0; y < tile.y1; ++y) {
-        for (int x = tile.x0; x < tile.x1; ++x) {
-          Pixel& pixel = film_.at(x, y);
-          if (static_cast<int>(pixel.samples) >= level) continue;
-          if (thread == 0) watch();
-          while (static_cast<int>(pixel.samples) < level && !stopped() && !wanted_) add(x, y, pixel, thread);
-        }
-      }
+  void pass(int level) {
+    std::atomic<std::size_t> next{0}, finished{0};
+    std::thread others;
+    if (hooks_.helpers != nullptr) {
+      others = std::thread([&] {
+        const auto empty = [&] { return stopped() || wanted_ || next >= tiles_.size(); };
+        const auto take = [&]() -> std::optional<std::size_t> {
+          const std::size_t i = empty() ? tiles_.size() : next.fetch_add(1);
+          if (i >= tiles_.size()) return std::nullopt;
+          ++finished;  // as good as
+          return i;
+        };
+        hooks_.helpers->work({tiles_, level, take, empty}, film_);
+      });
+    }
+    take_blocks(next, tiles_.size(), thread_count(settings_.threads), [&](std::size_t i, int thread) {
+      for_each_pixel(tiles_[i], [&](int x, int y) {
+        Pixel& pixel = film_.at(x, y);
+        if (static_cast<int>(pixel.samples) >= level) return;
+        if (thread == 0) watch();
+        while (static_cast<int>(pixel.samples) < level && !stopped() && !wanted_) sampler_.add(x, y, pixel, thread);
+      });
       ++finished;
       if (thread == 0 && !wanted_)
         tell(done_ + (level - done_) * static_cast<double>(finished) / static_cast<double>(tiles_.size()), false);
     });
+    if (others.joinable()) others.join();
   }
 
   /// What the calling thread sees to between pixels.
@@ -156,15 +136,14 @@ class Rendering {
     hooks_.report({fraction(samples), elapsed(), noise_, done_});
   }
 
-  const Geometry& geometry_;
   const RenderSettings& settings_;
   SampleFilm& film_;
   const RenderHooks& hooks_;
-  CameraRays camera_;
+  Sampler& sampler_;
   std::vector<Tile> tiles_;
   Clock::time_point begun_ = Clock::now(), told_{};
   std::atomic<bool> late_{false}, wanted_{false};
-  int spp_ = 1, done_ = 0;
+  int spp_, done_ = 0;
   double noise_ = 0.0, seconds_per_sample_ = 0.0;
 };
 
@@ -172,32 +151,11 @@ class Rendering {
 
 bool render(const Scene& scene, const Geometry& geometry, const RenderSettings& settings, SampleFilm& film,
             const RenderHooks& hooks) {
-  Rendering rendering(scene, geometry, settings, film, hooks);
-  if (settings.integrator == "single") {
-    const SingleContext context(scene, geometry, picture_settings());
-    // One sample, exact but for its quadratures; `spp` says how finely pixels that see a lamp average their footprint.
-    return rendering.passes(
-        1, [&](int x, int y, Pixel& pixel, int) { SampleFilm::set(pixel, single_pixel(context, x, y, settings.spp)); });
-  }
-  const PathContext context(scene, geometry, settings.max_depth);
-  std::vector<std::unique_ptr<PathTracer>> tracers;
-  for (int i = 0; i < thread_count(settings.threads); ++i) tracers.push_back(std::make_unique<PathTracer>(context));
-  const CameraRays& camera = rendering.camera();
-  return rendering.passes(settings.spp, [&](int x, int y, Pixel& pixel, int thread) {
-    if (pixel.samples == 0) {
-      const auto hit = geometry.intersect(camera.through(x + 0.5, y + 0.5));
-      pixel.depth = hit ? hit->t : infinity;
-    }
-    const auto number =
-        static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(film.width()) + static_cast<std::uint64_t>(x);
-    RandomStream random(settings.seed, number, pixel.samples, RandomStream::Samples::even);
-    const double dx = random.next(), dy = random.next();
-    PathTracer& tracer = *tracers[static_cast<std::size_t>(thread)];
-    SampleFilm::add(pixel, tracer.trace(camera.through(x + dx, y + dy), infinity, random));
-  });
+  const std::unique_ptr<Sampler> sampler = Sampler::make(scene, geometry, settings, thread_count(settings.threads));
+  return Rendering(settings, film, hooks, *sampler).passes();
 }
 
-Image developed(const SampleFilm& film, const RenderSettings& settings) {
+Image developed(const SampleFilm& film, const RenderSettings& settings, bool ended) {
   Image image = film.develop();
   const bool single = settings.integrator == "single";
   const auto [least, most] = film.samples_taken();
@@ -207,10 +165,10 @@ Image developed(const SampleFilm& film, const RenderSettings& settings) {
                  {"tyndall.spp", single ? std::to_string(settings.spp) : samples},
                  {"tyndall.seed", std::to_string(settings.seed)},
                  {"tyndall.max_depth", settings.max_depth == 0 ? "none" : std::to_string(settings.max_depth)}};
-  if (single) image.notes.emplace_back("tyndall.quadrature", single_description(picture_settings()));
-  if (least < (single ? 1u : static_cast<unsigned>(settings.spp))) {
+  if (single) image.notes.emplace_back("tyndall.quadrature", quadrature_text(settings));
+  if (!ended) {
     image.notes.emplace_back("tyndall.stopped", "before all samples were taken: pixels have " + samples + " of " +
-                                                    std::to_string(single ? 1 : settings.spp));
+                                                    std::to_string(most_samples(settings)));
   }
   return image;
 }
@@ -218,8 +176,8 @@ Image developed(const SampleFilm& film, const RenderSettings& settings) {
 Image render(const Scene& scene, const Geometry& geometry, const RenderSettings& settings,
              const std::function<void(const RenderProgress&)>& report, const std::atomic<bool>* stop) {
   SampleFilm film(scene.film.width, scene.film.height);
-  render(scene, geometry, settings, film, {report, {}, {}, stop});
-  return developed(film, settings);
+  const bool ended = render(scene, geometry, settings, film, {report, {}, {}, stop, nullptr});
+  return developed(film, settings, ended);
 }
 
 }  // namespace tyndall

@@ -2,7 +2,9 @@
 // Making a picture of a scene.
 #include <atomic>
 #include <functional>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "tyndall/image/image.h"
 #include "tyndall/render/film.h"
@@ -27,6 +29,25 @@ struct RenderProgress {
   int spp;                          // samples that every pixel has
 };
 
+struct Tile;
+
+/// The tiles of a pass that nobody has taken yet, for any number of threads.
+struct TileSource {
+  const std::vector<Tile>& tiles;
+  int level;                                         // samples that their pixels shall have
+  std::function<std::optional<std::size_t>()> take;  // the number of the next one
+  std::function<bool()> empty;
+};
+
+/// Others who take tiles of a pass (ranks.h).
+class TileHelpers {
+ public:
+  virtual ~TileHelpers() = default;
+  /// Takes tiles until there are none, has their pixels brought to their level and puts them into the film. Called on a
+  /// thread of its own while others work at other tiles; returns when every tile taken is back.
+  virtual void work(const TileSource& source, SampleFilm& film) = 0;
+};
+
 /// What a caller wants while a picture is made. All are called from the calling thread.
 struct RenderHooks {
   std::function<void(const RenderProgress&)> report;  // now and then
@@ -34,6 +55,7 @@ struct RenderHooks {
   std::function<bool()> wants_film;
   std::function<void(const SampleFilm&)> save;
   const std::atomic<bool>* stop = nullptr;  // no more samples once it is true
+  TileHelpers* helpers = nullptr;
 };
 
 /// Adds samples to `film` (of the size scene.film) until every pixel has settings.spp, or another end is reached. The
@@ -43,8 +65,8 @@ struct RenderHooks {
 bool render(const Scene& scene, const Geometry& geometry, const RenderSettings& settings, SampleFilm& film,
             const RenderHooks& hooks);
 
-/// The film as a picture whose notes say how it was made.
-Image developed(const SampleFilm& film, const RenderSettings& settings);
+/// The film as a picture whose notes say how it was made; ended: render() has said so.
+Image developed(const SampleFilm& film, const RenderSettings& settings, bool ended);
 
 /// Both, from nothing. When `stop` becomes true the picture is returned as it is.
 Image render(const Scene& scene, const Geometry& geometry, const RenderSettings& settings,
