@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <random>
 
+#include "tests/cases.h"
 #include "tyndall/artist/random_dials_test.h"
 #include "tyndall/document/law_text.h"
 #include "tyndall/document/medium_file.h"
@@ -88,6 +89,7 @@ void survive(int count, std::uint64_t seed) {
   // Mutations that leave a file good and ones that break it both occur, or the test would say little.
   EXPECT_GT(read, count / 100);
   EXPECT_LT(read, count * 9 / 10);
+  tests::say_cases(count, "damaged files, " + std::to_string(read) + " of them still good");
 }
 
 TEST(HostileMediumFile, EveryTruncationIsAFault) {
