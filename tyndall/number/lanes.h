@@ -34,6 +34,9 @@ inline Lanes with_sign_of(const Lanes& x, const Lanes& s) { return xsimd::copysi
 inline Lanes lookup(const SharedArray& array, const Lanes& index) {
   const float* from = array->data<float>();
 #if defined(__AVX512F__)
+  // 32 numbers fit into two registers.
+  if (array->size() == 32)
+    return _mm512_permutex2var_ps(_mm512_loadu_ps(from), _mm512_cvttps_epi32(index), _mm512_loadu_ps(from + 16));
   return _mm512_i32gather_ps(_mm512_cvttps_epi32(index), from, sizeof(float));
 #elif defined(__AVX2__)
   return _mm256_i32gather_ps(from, _mm256_cvttps_epi32(index), sizeof(float));

@@ -63,12 +63,14 @@ void scalar_samples(Arrays& a, Inverse inverse) {
   }
 }
 
-void scalar_sample(const Law<float>& law, Arrays& a) {
-  const LobeSum<float> lobes = lower(law);
+void scalar_sample(const Law<float>& law, const LobeSum<float>& lobes, const std::optional<QuantileStart>& start,
+                   Arrays& a) {
   std::visit(
       [&](const auto& own) {
         if constexpr (requires { own.sample(0.5F); }) {
           scalar_samples(a, [own](float xi) { return own.sample(xi); });
+        } else if (start) {
+          scalar_samples(a, [&](float xi) { return sample(lobes, *start, xi); });
         } else if (lobes.size() == 1) {
           std::visit([&](const auto& lobe) { scalar_samples(a, [lobe](float xi) { return lobe.sample(xi); }); },
                      lobes.front().lobe);
@@ -110,7 +112,7 @@ void add_law(const std::string& name, const Law<double>& exact) {
   }
   const auto b = std::make_shared<Arrays>(*law);
   benchmark::DoNotOptimize(b.get());
-  add("sample/" + name + "/scalar", [=] { scalar_sample(*law, *b); });
+  add("sample/" + name + "/scalar", [=, start = quantile_start(*lobes)] { scalar_sample(*law, *lobes, start, *b); });
   for (const InstructionSet set : sets) {
     add("sample/" + name + "/" + std::string(name_of(set)), [=, arrays = PhaseArrays(*lobes, set)] {
       arrays.sample(b->xi, {b->mu, b->one_minus, b->one_plus});

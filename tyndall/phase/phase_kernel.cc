@@ -4,10 +4,14 @@
 
 #include <xmmintrin.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "tyndall/number/lane_pair.h"
 #include "tyndall/phase/mie_hazy.h"
 #include "tyndall/phase/mie_murky.h"
 #include "tyndall/phase/nishita_murky.h"
+#include "tyndall/phase/quantile_start.h"
 #include "tyndall/phase/sum_inverse.h"
 
 namespace tyndall {
@@ -110,8 +114,102 @@ void sample_law(const PhaseKernelCall& call) {
   sample_all(call, []<class T>(const T& xi, std::type_identity<T>) { return L<T>{}.sample(xi); });
 }
 
+// Quantiles of a sum of lobes from its table of starts (quantile_start.h), a block at a time: what the text for one
+// number does at once is done here in passes, one for each lobe, so that what belongs to the lobe stays in registers.
+class Search {
+ public:
+  explicit Search(const PhaseKernelCall& call) : call_(call), start_(*call.start) {
+    for (int k = 0; k < call.lobe_count; ++k) lobes_.push_back(lobe_of<LanePair>(call.lobes[k]));
+  }
+
+  void run() {
+    for (std::size_t first = 0; first < call_.count; first += size) {
+      const std::size_t count = std::min(size, call_.count - first);
+      full_ = (count + LanePair::size - 1) / LanePair::size * LanePair::size;
+      std::copy_n(call_.xi + first, count, xi_);
+      std::fill(xi_ + count, xi_ + full_, 0.5F);
+      begin();
+      for (int taken = 1;; ++taken) {
+        pass_lobes();
+        if (taken == start_.steps) break;
+        step();
+      }
+      finish();
+      std::copy_n(s_, count, call_.sampled_mu + first);
+      std::copy_n(one_minus_, count, call_.sampled_one_minus + first);
+      std::copy_n(one_plus_, count, call_.sampled_one_plus + first);
+    }
+  }
+
+ private:
+  static constexpr std::size_t size = 512;
+  static LanePair at(const float* from, std::size_t i) { return load(from, i, size, std::type_identity<LanePair>{}); }
+  static void put(const LanePair& x, float* to, std::size_t i) { store(x, to, i, size); }
+  Deflection<LanePair> deflection(std::size_t i) const {
+    return Deflection<LanePair>::from_ends(at(one_minus_, i), at(one_plus_, i));
+  }
+  Passage<LanePair> passage(std::size_t i) const { return {at(below_, i), at(above_, i), at(density_, i)}; }
+  void go_to(const LanePair& s, std::size_t i) {
+    put(s, s_, i);
+    const Deflection<LanePair> d = QuantileStart::at_log_odds(s);
+    put(d.one_minus, one_minus_, i);
+    put(d.one_plus, one_plus_, i);
+  }
+
+  [[gnu::flatten]] void begin() {
+    for (std::size_t i = 0; i < full_; i += LanePair::size) {
+      const LanePair xi = at(xi_, i);
+      const auto place = start_.place(xi, LanePair(1.0) - xi);
+      put(place.rise, rise_, i);
+      put(place.bend, bend_, i);
+      go_to(place.s, i);
+    }
+  }
+  void pass_lobes() {
+    for (std::size_t k = 0; k < lobes_.size(); ++k)
+      std::visit([&](const auto& lobe) { pass(lobe, LanePair(call_.lobes[k].weight), k == 0); }, lobes_[k]);
+  }
+  template <class L>
+  [[gnu::flatten]] void pass(const L& given, const LanePair& weight, bool is_first) {
+    const L lobe = given;  // ours alone: no store can change it
+    for (std::size_t i = 0; i < full_; i += LanePair::size) {
+      const Deflection<LanePair> d = deflection(i);
+      const auto add = [&](const LanePair& term, float* to) {
+        put(is_first ? weight * term : fma(weight, term, at(to, i)), to, i);
+      };
+      const LanePair below = lobe.cdf(d), above = lobe.survival(d), density = lobe.density(d);
+      add(below, below_);
+      add(above, above_);
+      add(density, density_);
+    }
+  }
+  [[gnu::flatten]] void step() {
+    for (std::size_t i = 0; i < full_; i += LanePair::size) {
+      const LanePair xi = at(xi_, i);
+      go_to(at(s_, i) + QuantileStart::step(xi, LanePair(1.0) - xi, deflection(i), passage(i)), i);
+    }
+  }
+  [[gnu::flatten]] void finish() {
+    for (std::size_t i = 0; i < full_; i += LanePair::size) {
+      const LanePair xi = at(xi_, i);
+      const QuantileStart::Place<LanePair> from{at(s_, i), at(rise_, i), at(bend_, i)};
+      const Deflection<LanePair> d = QuantileStart::last(xi, LanePair(1.0) - xi, from, deflection(i), passage(i));
+      put(d.mu, s_, i);
+      put(d.one_minus, one_minus_, i);
+      put(d.one_plus, one_plus_, i);
+    }
+  }
+
+  const PhaseKernelCall& call_;
+  const QuantileStart& start_;
+  std::vector<Lobe<LanePair>> lobes_;
+  std::size_t full_ = 0;
+  float xi_[size], s_[size], rise_[size], bend_[size], one_minus_[size], one_plus_[size], below_[size], above_[size],
+      density_[size];
+};
+
 void sample_lobes(const PhaseKernelCall& call) {
-  if (call.lobe_count == 1) {
+  if (call.lobe_count == 1 && call.start == nullptr) {
     visit_lobe(call.lobes[0], [&](const auto& lobes) {
       sample_all(call, [lobes](const auto& xi, auto number) { return lobes.in(number).sample(xi); });
     });
@@ -121,6 +219,8 @@ void sample_lobes(const PhaseKernelCall& call) {
     sample_law<MieMurky>(call);
   } else if (is_law_of<NishitaMurky>(call)) {
     sample_law<NishitaMurky>(call);
+  } else if (call.start != nullptr) {
+    Search(call).run();
   } else {
     LobeSum<Lanes> lobes;
     for (int k = 0; k < call.lobe_count; ++k)
