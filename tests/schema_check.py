@@ -25,6 +25,8 @@ BEYOND_A_SCHEMA = {
     "base_out_of_range.medium.json",  # denser than numbers can hold, once multiplied out
     "altitude_in_space.medium.json",  # in metres
     "box_inside_out.medium.json",  # one corner against the other
+    "profile_list_bad_member.medium.json",  # bottom against top
+    "profile_list_nowhere.medium.json",  # what comes to the origin
     "measured_beyond_air.medium.json",
     "measured_haze_of_drops.medium.json",  # one dial against another
     "ozone_in_the_ultraviolet.medium.json",

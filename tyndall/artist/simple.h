@@ -26,7 +26,7 @@ struct Simple {
   Density thickness = PlainExtinction{};
   Spectrum albedo = Spectrum::grey(1.0);
   std::optional<Veil> veil;
-  std::optional<Profile> profile;
+  std::optional<Profiles> profile;
   std::optional<Hold> hold;
   static constexpr auto fields() {
     return std::tuple{Field{"w", &Simple::w, unit_interval, "1", "0 nothing, 0.5 hazy, 1 murky.", Scaling::none, true},
@@ -35,7 +35,8 @@ struct Simple {
                       Field{"albedo", &Simple::albedo, unit_interval, "1",
                             "Share of what haze and murk take from a beam that is scattered."},
                       Field{"veil", &Simple::veil, any_number, "", "The even part, as of dust or smoke."},
-                      Field{"profile", &Simple::profile, any_number, "", "How it varies in space; absent: not at all."},
+                      Field{"profile", &Simple::profile, any_number, "",
+                            "How it varies in space, a list multiplies; absent: not at all."},
                       Field{"hold", &Simple::hold, any_number, "",
                             "\"visibility\": thickness is that of the finished medium, whatever w."}};
   }

@@ -110,6 +110,13 @@ class Chosen {
       T list;
       for (std::size_t n = below(4); n > 0; --n) list.push_back(value<typename T::value_type>(facts, depth));
       return list;
+    } else if constexpr (OneOrMoreMember<T>) {
+      T several;
+      for (auto& element : several.all) element = value<std::remove_cvref_t<decltype(element)>>(facts, depth);
+      for (std::size_t n = one_in(3) ? 1 + below(3) : 0; n > 0; --n) {
+        several.all.push_back(value<typename decltype(T::all)::value_type>(facts, depth));
+      }
+      return several;
     } else if constexpr (Choice<T>) {
       const std::size_t chosen = depth < 4 ? below(std::variant_size_v<T>) : 0;
       std::size_t index = 0;

@@ -162,7 +162,7 @@ class Assembly {
     for (std::size_t i = 0; i < description.volumes.size(); ++i) {
       const JsonCursor at = root_.at("volumes").at(i);
       add_medium(description.volumes[i].medium, at.at("medium"),
-                 {metres(description.volumes[i].profile, at.at("profile"))});
+                 metres(description.volumes[i].profile, at.at("profile")).all);
     }
     std::optional<GltfCamera> camera;
     for (std::size_t i = 0; i < description.geometry.size(); ++i) {
@@ -187,16 +187,8 @@ class Assembly {
   template <class T>
   T metres(const T& value, const JsonCursor& at) const {
     T scaled = in_metres(value, unit_);
-    if constexpr (Described<T>) {
-      if (auto objection = unusable_number(scaled)) throw at.fault_below(*objection);
-    } else {
-      std::visit([&](const auto& chosen) { metres_checked(chosen, at); }, scaled);
-    }
-    return scaled;
-  }
-  template <class T>
-  static void metres_checked(const T& scaled, const JsonCursor& at) {
     if (auto objection = unusable_number(scaled)) throw at.fault_below(*objection);
+    return scaled;
   }
 
   /// The file that a text of this scene names.
