@@ -113,8 +113,8 @@ bool same(const T& a, const T& b) {
   return alike(a, b) && numbers_of(a) == numbers_of(b);
 }
 
-/// a (1 - t) + b t, exact at both ends.
-inline double between(double a, double b, double t) { return t == 1.0 ? b : a + (b - a) * t; }
+/// a (1 - t) + b t, exact at both ends and never outside them.
+inline double between(double a, double b, double t) { return std::lerp(a, b, t); }
 inline Spectrum between(const Spectrum& a, const Spectrum& b, double t) {
   Spectrum out;
   for (std::size_t i = 0; i < channel_count; ++i) out[i] = between(a[i], b[i], t);

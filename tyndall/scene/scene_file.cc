@@ -91,7 +91,7 @@ void note_darkness(Scene& scene, const fs::path& file) {
 
 /// What in a medium is outside what physics allows, once for each place; the medium is at `pointer` of the file.
 void note_remarks(Scene& scene, const MediumFile& medium, const std::string& file, const std::string& pointer) {
-  for (const Remark& remark : remarks_on(dials_in_metres(medium))) {
+  for (const Remark& remark : remarks_on(medium)) {
     const std::string text = remark_text(remark, file, pointer);
     if (std::ranges::find(scene.warnings, text) == scene.warnings.end()) scene.warnings.push_back(text);
   }
