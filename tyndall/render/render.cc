@@ -19,6 +19,13 @@ struct Tile {
   int x0, y0, x1, y1;
 };
 
+/// "64", or "12-16" where not all pixels have as many.
+std::string range_text(std::uint64_t least, std::uint64_t most) {
+  std::string text = std::to_string(least);
+  if (most != least) text.append("-").append(std::to_string(most));
+  return text;
+}
+
 std::vector<Tile> tiles_of(const SampleFilm& film, std::uint32_t order) {
   std::vector<Tile> tiles;
   for (int y = 0; y < film.height(); y += tile_size) {
@@ -54,11 +61,12 @@ class Rendering {
       if (stopped()) return;
       work(tiles[i], thread);
       ++finished;
-      if (thread == 0)
-        tell(film,
-             (done_ + samples * static_cast<double>(finished) / static_cast<double>(tiles.size())) / settings_.spp,
-             false);
+      if (thread == 0 && finished < tiles.size()) {
+        const double part = static_cast<double>(finished) / static_cast<double>(tiles.size());
+        tell(film, (done_ + samples * part) / settings_.spp, false);
+      }
     });
+    if (finished < tiles.size() || stopped()) return;  // the end of it was not reached, and is not told of
     done_ += samples;
     tell(film, static_cast<double>(done_) / settings_.spp, true);
   }
@@ -131,16 +139,16 @@ Image render(const Scene& scene, const Geometry& geometry, const RenderSettings&
     }
   }
   Image image = film.develop();
+  const auto [least, most] = film.samples_taken();
+  // single does all of a pixel at once, and counts it as one.
+  const std::uint64_t each = settings.integrator == "single" ? static_cast<std::uint64_t>(settings.spp) : 1;
   image.notes = {{"tyndall.integrator", settings.integrator},
                  {"tyndall.spp", std::to_string(settings.spp)},
+                 {"tyndall.spp_taken", range_text(least * each, most * each)},
                  {"tyndall.seed", std::to_string(settings.seed)},
                  {"tyndall.max_depth", settings.max_depth == 0 ? "none" : std::to_string(settings.max_depth)}};
   if (!quadrature.empty()) image.notes.emplace_back("tyndall.quadrature", quadrature);
-  if (rendering.stopped()) {
-    const auto [least, most] = film.samples_taken();
-    image.notes.emplace_back("tyndall.stopped", "before all samples were taken: pixels have " + std::to_string(least) +
-                                                    " to " + std::to_string(most) + " samples");
-  }
+  if (rendering.stopped()) image.notes.emplace_back("tyndall.stopped", "before all samples were taken");
   return image;
 }
 
