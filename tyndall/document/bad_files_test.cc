@@ -31,7 +31,7 @@ const tests::BadFile bad_files[] = {
     {"duplicate_key", 5, "/name", "\"name\" a second time", "each key once"},
     {"duplicate_key_below", 7, "/species/1/scattering", "\"scattering\" a second time", "each key once"},
     {"duplicate_key_escaped", 4, "/name", "\"name\" a second time", "each key once"},
-    {"empty", 1, "", "not JSON", "JSON"},
+    {"empty", 0, "", "an empty file", "tyndall-medium/1"},
     {"g_one", 5, "/species/0/phase/g", "number 1", "above -1 and below 1"},
     {"held_visibility_out_of_reach", 6, "/conditions/thickness", "600 m", "shorter visibility"},
     {"hexadecimal", 3, "", "not JSON", "JSON"},

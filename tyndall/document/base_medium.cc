@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "tyndall/document/file_kind.h"
 #include "tyndall/document/json_locator.h"
 #include "tyndall/document/medium_file.h"
 #include "tyndall/document/merged_json.h"
@@ -37,7 +38,10 @@ std::pair<JsonText, std::string> base_named(const JsonText& json, const std::str
                 "a medium file, or " + one_of(name, preset_names()));
   }
   const fs::path path = referenced_file(json.references->naming, name, json.references->allow_path, where);
-  return {read_json(path, json.references->allow_path), identity_of(path)};
+  refuse_other_kinds(path, FileKind::medium);
+  JsonText text = read_json(path, json.references->allow_path);
+  refuse_other_kinds(text, FileKind::medium);
+  return {std::move(text), identity_of(path)};
 }
 
 /// The base's members, with lengths in units of `meters_per_unit`.

@@ -2,6 +2,7 @@
 
 #include "tyndall/document/base_medium.h"
 #include "tyndall/document/binding.h"
+#include "tyndall/document/file_kind.h"
 #include "tyndall/document/number_rows.h"
 #include "tyndall/document/reference.h"
 #include "tyndall/document/spelling.h"
@@ -111,7 +112,9 @@ MediumFile medium_from_json(std::string text, const std::string& name_for_messag
 }
 
 MediumFile read_medium_file(const std::filesystem::path& file, bool allow_path) {
+  refuse_other_kinds(file, FileKind::medium);
   JsonText json = read_json(file, allow_path);
+  refuse_other_kinds(json, FileKind::medium);
   resolve_base(json);
   return medium_file_at(JsonCursor(json));
 }

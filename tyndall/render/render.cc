@@ -14,6 +14,13 @@
 namespace tyndall {
 namespace {
 
+/// "64", or "12-16" where not all pixels have as many.
+std::string range_text(std::uint64_t least, std::uint64_t most) {
+  std::string text = std::to_string(least);
+  if (most != least) text.append("-").append(std::to_string(most));
+  return text;
+}
+
 /// How many samples each pixel has after the pass that follows `done`. The first gives something to look at soon;
 /// later ones grow, so that passes cost little. Always the same numbers (1, 2, 3, 4, 6, 9, ..): a picture that ends at
 /// a given noise then ends with the same samples however often it was interrupted.
@@ -157,19 +164,17 @@ bool render(const Scene& scene, const Geometry& geometry, const RenderSettings& 
 
 Image developed(const SampleFilm& film, const RenderSettings& settings, bool ended) {
   Image image = film.develop();
-  const bool single = settings.integrator == "single";
   const auto [least, most] = film.samples_taken();
-  const std::string samples =
-      least == most ? std::to_string(least) : std::to_string(least) + " to " + std::to_string(most);
+  // single does all of a pixel at once, and counts it as one.
+  const std::uint64_t each = settings.integrator == "single" ? static_cast<std::uint64_t>(settings.spp) : 1;
   image.notes = {{"tyndall.integrator", settings.integrator},
-                 {"tyndall.spp", single ? std::to_string(settings.spp) : samples},
+                 {"tyndall.spp", std::to_string(settings.spp)},
+                 {"tyndall.spp_taken", range_text(least * each, most * each)},
                  {"tyndall.seed", std::to_string(settings.seed)},
                  {"tyndall.max_depth", settings.max_depth == 0 ? "none" : std::to_string(settings.max_depth)}};
-  if (single) image.notes.emplace_back("tyndall.quadrature", quadrature_text(settings));
-  if (!ended) {
-    image.notes.emplace_back("tyndall.stopped", "before all samples were taken: pixels have " + samples + " of " +
-                                                    std::to_string(most_samples(settings)));
-  }
+  if (const std::string text = quadrature_text(settings); !text.empty())
+    image.notes.emplace_back("tyndall.quadrature", text);
+  if (!ended) image.notes.emplace_back("tyndall.stopped", "before all samples were taken");
   return image;
 }
 

@@ -7,6 +7,7 @@
 
 #include "tyndall/document/base_medium.h"
 #include "tyndall/document/binding.h"
+#include "tyndall/document/file_kind.h"
 #include "tyndall/document/named_medium.h"
 #include "tyndall/document/reference.h"
 #include "tyndall/image/panorama.h"
@@ -275,7 +276,9 @@ void complete_medium(Json& owner, const Json& meters_per_unit) {
 
 Scene read_scene(const fs::path& file, const SceneOptions& options) {
   if (is_gltf(file)) return scene_of_gltf(file, options);
+  refuse_other_kinds(file, FileKind::scene);
   JsonText json = read_json(file, options.allow_path);
+  refuse_other_kinds(json, FileKind::scene);
   if (json.root.is_object()) {
     const Json unit = json.root.value("meters_per_unit", Json{});
     complete_medium(json.root, unit);
