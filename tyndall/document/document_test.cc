@@ -376,6 +376,27 @@ TEST(MediumFile, ASchemaBesideItIsFoundFromItsNewPlace) {
   EXPECT_FALSE(without.schema);
 }
 
+TEST(MediumFile, SeveralProfilesAreAListAndOneIsItself) {
+  const auto read = [](const std::string& profile) {
+    return medium_from_json(R"({"format": "tyndall-medium/1", "meters_per_unit": 0.01,
+      "species": [{"scattering": 1, "profile": )" +
+                                profile + "}]}",
+                            "t");
+  };
+  const std::string height = R"({ "law": "exponential", "scale_height": 250, "base": 0 })";
+  const std::string noise =
+      R"({ "law": "noise", "scale": 50, "octaves": 4, "contrast": 0.5, "seed": 0, "wind": [1, 0, 0] })";
+  const MediumFile both = read("[" + height + ", " + noise + "]");
+  EXPECT_EQ(compile(both).species.at(0).profiles,
+            (std::vector<Profile>{ExponentialProfile{2.5, 0.0}, NoiseProfile{0.5, 4, 0.5, 0, {0.01, 0.0, 0.0}}}));
+  EXPECT_THAT(medium_to_json(both), HasSubstr("\"profile\": [\n"));
+  EXPECT_EQ(medium_to_json(medium_from_json(medium_to_json(both), "again")), medium_to_json(both));
+  // A list of one means the same as the one, and is written as that.
+  const MediumFile one = read(height), listed = read("[" + height + "]");
+  EXPECT_TRUE(same(one, listed));
+  EXPECT_THAT(medium_to_json(listed), HasSubstr("\"profile\": " + height));
+}
+
 TEST(Blended, TakesEachFileInItsOwnUnit) {
   const MediumFile a = harbour_fog();
   MediumFile b = a, b_in_cm = a;

@@ -18,7 +18,10 @@ namespace {
 bool is_read(const std::string& text) {
   try {
     const MediumFile file = medium_from_json(text, "mutant");
-    summary_of(compile(file));
+    if (!file.keyframes) summary_of(compile(file));
+    for (std::size_t i = 0; file.keyframes && i < file.keyframes->size(); ++i) {
+      summary_of(compile(at_time(file, (*file.keyframes)[i].time)));
+    }
     medium_from_json(medium_to_json(file), "again");
     return true;
   } catch (const Fault& fault) {
@@ -38,6 +41,12 @@ std::vector<std::string> good_texts() {
   for (int i = 0; i < 10; ++i) {
     MediumFile file;
     static_cast<MediumDials&>(file) = dice.medium();
+    if (i % 3 == 0 && file.conditions) {  // from the weather that there is to any other and on
+      file.keyframes = Keyframes{{-1.0, *file.conditions},
+                                 {2.5, dice.two_lobes(), BlendHow::morph},
+                                 {4.0, dice.two_lobes_explicit(), BlendHow::mix}};
+      file.conditions.reset();
+    }
     texts.push_back(medium_to_json(file));
   }
   return texts;
