@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""bench_page.py BUILD: writes docs/bench.md from BUILD/bench/*.json, which scripts/bench.sh leaves. Run by `make bench`."""
+"""Writes docs/bench.md from BUILD/bench/*.json, which scripts/bench.sh leaves. Run by `make bench`."""
+import argparse
 import json
 import os
 import subprocess
@@ -70,7 +71,9 @@ def path_table(build):
 
 
 def main():
-    build = sys.argv[1]
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("build", help="the build folder of `make bench`: build-bench")
+    build = parser.parse_args().build
     measured = min(results(build, name)["context"]["date"][:10] for name in ("phase_bench", "slab_bench", "airlight_bench"))
     lines = [
         "# Speed", "",
