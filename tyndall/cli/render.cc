@@ -28,7 +28,7 @@ namespace {
 
 struct RenderOptions {
   SceneArguments scene;
-  std::string size, integrator, tone = "filmic";
+  std::string frames, size, integrator, tone = "filmic";
   std::vector<std::string> outputs;
   int spp = 0, threads = 0;
   double exposure = 0.0;
@@ -83,11 +83,49 @@ Film film_size(const std::string& text) {
   throw Fault("--size", in_quotes(text), "WIDTHxHEIGHT in pixels, each from 1 to 16384, such as 1280x720");
 }
 
+/// The pictures of an animation: from the first to the last, both included.
+struct Frames {
+  int first = 0, last = 0;
+  int count() const { return last - first + 1; }
+};
+
+Frames frames_from(const std::string& text) {
+  constexpr int most = 99999;
+  Frames frames;
+  const char* const end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, frames.first);
+  if (first.ec == std::errc{} && first.ptr != end && *first.ptr == '-') {
+    const auto last = std::from_chars(first.ptr + 1, end, frames.last);
+    if (last.ec == std::errc{} && last.ptr == end && frames.first >= 0 && frames.first <= frames.last &&
+        frames.last <= most) {
+      return frames;
+    }
+  }
+  throw Fault(
+      "--frames", in_quotes(text),
+      "FIRST-LAST, such as 0-47: whole numbers up to " + std::to_string(most) + ", the last not before the first");
+}
+
+/// A picture of an animation: fog.exr as fog.0012.exr.
+std::string numbered(const std::string& output, int frame) {
+  char digits[16];
+  std::snprintf(digits, sizeof digits, ".%04d", frame);
+  const std::filesystem::path path(output);
+  return (path.parent_path() / (path.stem().string() + digits + path.extension().string())).string();
+}
+
+/// The pictures of one frame; of what is no animation, the outputs themselves.
+std::vector<std::string> outputs_of(const std::vector<std::string>& outputs, const std::optional<int>& frame) {
+  std::vector<std::string> names;
+  for (const std::string& output : outputs) names.push_back(frame ? numbered(output, *frame) : output);
+  return names;
+}
+
 /// Everything about the outputs that can be known before the work.
-void check_outputs(const std::vector<std::string>& outputs) {
-  std::set<std::filesystem::path> seen;
+void check_outputs(const std::vector<std::string>& outputs, std::set<std::filesystem::path>& seen) {
   for (const std::string& output : outputs) {
-    if (const std::string kind = std::filesystem::path(output).extension().string(); kind != ".exr" && kind != ".png") {
+    const std::filesystem::path path(output);
+    if (const std::string kind = path.extension().string(); kind != ".exr" && kind != ".png") {
       throw Fault("--output", "the file name " + in_quotes(output), "a name ending in .exr or .png");
     }
     check_writable(output);
@@ -98,9 +136,9 @@ void check_outputs(const std::vector<std::string>& outputs) {
 }
 
 /// Writes them all even if one cannot be written: the others may be all that is left of a night's work.
-void write_outputs(const RenderOptions& options, const Image& image) {
+void write_outputs(const RenderOptions& options, const std::vector<std::string>& outputs, const Image& image) {
   std::exception_ptr failure;
-  for (const std::string& output : options.outputs) {
+  for (const std::string& output : outputs) {
     try {
       if (std::filesystem::path(output).extension() == ".exr") {
         write_exr(output, image);
@@ -114,11 +152,32 @@ void write_outputs(const RenderOptions& options, const Image& image) {
   if (failure) std::rethrow_exception(failure);
 }
 
-void render_scene(const RenderOptions& options) {
+/// What the bar says of the work on a picture, which may be one of several.
+std::string progress_text(const RenderProgress& p, const Frames& frames, const std::optional<int>& frame) {
+  char text[96] = "";
+  if (p.noise > 0.0) std::snprintf(text, sizeof text, "%d samples, noise %.1f %%", p.spp, 100.0 * p.noise);
+  if (!frame) return text;
+  return "frame " + std::to_string(*frame) + " (" + std::to_string(*frame - frames.first + 1) + " of " +
+         std::to_string(frames.count()) + ")" + (p.noise > 0.0 ? ", " : "") + text;
+}
+
+void render_scene(RenderOptions options) {
   std::optional<Film> film;
   if (!options.size.empty()) film = film_size(options.size);
-  check_outputs(options.outputs);
-  Scene scene = scene_of(options.scene, options.quiet);
+  const bool animated = !options.frames.empty();
+  const Frames frames = animated ? frames_from(options.frames) : Frames{};
+  const auto number = [&](int frame) { return animated ? std::optional(frame) : std::nullopt; };
+  std::set<std::filesystem::path> seen;
+  for (int frame = frames.first; frame <= frames.last; ++frame) {
+    check_outputs(outputs_of(options.outputs, number(frame)), seen);
+  }
+  options.scene.frame = number(frames.first);
+  SceneInTime timed = scene_of(options.scene, options.quiet);
+  Scene& scene = timed.scene;
+  // A medium that is none in some picture is better known now than after a night.
+  for (int frame = frames.first; frame <= frames.last && animated; ++frame) {
+    medium_at(timed.media, time_of(scene, frame));
+  }
   if (film) scene.film = *film;
   check_memory(scene.film);
   const Geometry geometry(scene);
@@ -128,24 +187,33 @@ void render_scene(const RenderOptions& options) {
   settings.max_depth = scene.integrator.max_depth;
   settings.threads = options.threads;
   settings.seed = options.seed;
-  Image image;
+  heed_signals();
+  int frame = frames.first;
   {
-    heed_signals();
     ProgressBar bar(options.quiet);
-    image = render(
-        scene, geometry, settings,
-        [&](const RenderProgress& p) {
-          char detail[64] = "";
-          if (p.noise > 0.0) std::snprintf(detail, sizeof detail, "%d samples, noise %.1f %%", p.spp, 100.0 * p.noise);
-          bar.show(p.fraction, p.seconds, detail);
-        },
-        &interrupted);
+    double seconds_before = 0.0;
+    for (;; ++frame) {
+      if (animated) set_time(timed, time_of(scene, frame));
+      double seconds = 0.0;
+      const Image image = render(
+          scene, geometry, settings,
+          [&](const RenderProgress& p) {
+            seconds = p.seconds;
+            bar.show((frame - frames.first + p.fraction) / frames.count(), seconds_before + seconds,
+                     progress_text(p, frames, number(frame)));
+          },
+          &interrupted);
+      write_outputs(options, outputs_of(options.outputs, number(frame)), image);
+      seconds_before += seconds;
+      if (interrupted || frame == frames.last) break;
+    }
   }
-  write_outputs(options, image);
-  if (interrupted) {
-    if (!options.quiet) std::fprintf(stderr, "stopped; the picture has the samples taken until then\n");
-    throw CLI::RuntimeError(128 + stopping_signal);
+  if (!interrupted) return;
+  if (!options.quiet) {
+    const std::string which = animated ? " at frame " + std::to_string(frame) + "; its" : "; the";
+    std::fprintf(stderr, "stopped%s picture has the samples taken until then\n", which.c_str());
   }
+  throw CLI::RuntimeError(128 + stopping_signal);
 }
 
 }  // namespace
@@ -171,10 +239,15 @@ void add_render(CLI::App& app) {
       ->check(CLI::IsMember(std::vector<std::string>(tone_names.begin(), tone_names.end())));
   add_threads(*command, options->threads);
   add_seed(*command, options->seed);
+  command
+      ->add_option("--frames", options->frames,
+                   "Pictures of an animation, numbered: fog.exr as fog.0012.exr; picture n is that of time n / fps")
+      ->type_name("A-B")
+      ->excludes("--time");
   command->add_flag("--quiet", options->quiet, "No progress, no warnings");
   command->footer(
       "A scene is a .scene.json, or a .glb or .gltf of any modelling program. Ctrl-C stops early and writes the "
-      "picture as it is (exit code 130).\n\n"
+      "picture as it is (exit code 130); of several, the one it is at.\n\n"
       "Example: tyndall render examples/street.scene.json --medium examples/media/street_w100.medium.json -o "
       "street.png");
   command->callback([options] { render_scene(*options); });

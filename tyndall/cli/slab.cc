@@ -7,9 +7,9 @@
 
 #include "tyndall/cli/arguments.h"
 #include "tyndall/cli/commands.h"
+#include "tyndall/cli/medium_arguments.h"
 #include "tyndall/cli/table.h"
 #include "tyndall/cli/warnings.h"
-#include "tyndall/document/named_medium.h"
 #include "tyndall/document/spelling.h"
 
 namespace tyndall {
@@ -22,7 +22,8 @@ struct SlabOptions {
   std::uint32_t spp = 1000000;
   std::uint64_t seed = 1;
   int threads = 0;
-  bool json = false, allow_path = false;
+  bool json = false;
+  MediumArguments media;
 };
 
 double thickness_of(const std::string& text) {
@@ -82,8 +83,8 @@ void slab(const SlabOptions& options) {
   for (const double mu : options.mu) {
     if (!(mu > 0.0 && mu <= 1.0)) throw Fault("--mu", "the number " + value_text(mu), "cosines above 0, to 1");
   }
-  const MediumFile file = read_named_medium(options.medium, options.allow_path).file;
-  request.medium = compile(file, options.medium);
+  const auto [stated, now] = medium_of(options.medium, options.media);
+  request.medium = compile(now, options.medium);
   request.mu = options.mu;
   request.diffuse = options.illumination == "diffuse";
   request.mu0 = options.mu0;
@@ -94,7 +95,7 @@ void slab(const SlabOptions& options) {
   if (const std::string objection = slab_objection(request); !objection.empty()) {
     throw Fault("slab", "a layer whose light cannot be computed", objection);
   }
-  warn(file, options.medium);
+  warn(stated, options.medium);
   const SlabResult result = solve_slab(request);
   options.json ? print_json(request, result) : print_table(request, result);
 }
@@ -121,7 +122,7 @@ void add_slab(CLI::App& app) {
       ->check(CLI::Range(1u, 4000000000u));
   add_seed(*command, options->seed);
   add_threads(*command, options->threads);
-  add_allow_path(*command, options->allow_path);
+  add_medium_arguments(*command, options->media);
   command->add_flag("--json", options->json, "Print one JSON object");
   command->footer(
       "A beam enters the top of a flat layer, black outside; all orders of scattering. Numbers are shares of the "

@@ -4,6 +4,7 @@
 #include <memory>
 #include <mutex>
 
+#include "tyndall/document/writing.h"
 #include "tyndall/render/camera.h"
 #include "tyndall/render/film.h"
 #include "tyndall/render/parallel.h"
@@ -134,6 +135,7 @@ Image render(const Scene& scene, const Geometry& geometry, const RenderSettings&
   image.notes = {{"tyndall.integrator", settings.integrator},
                  {"tyndall.spp", std::to_string(settings.spp)},
                  {"tyndall.seed", std::to_string(settings.seed)},
+                 {"tyndall.time", number_text(scene.time)},
                  {"tyndall.max_depth", settings.max_depth == 0 ? "none" : std::to_string(settings.max_depth)}};
   if (!quadrature.empty()) image.notes.emplace_back("tyndall.quadrature", quadrature);
   if (rendering.stopped()) {
