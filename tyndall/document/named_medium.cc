@@ -12,17 +12,17 @@ NamedMedium read_preset(const Preset& preset) {
   return {medium_from_json(std::string(preset.text), title_of(preset)), title_of(preset)};
 }
 
-bool is_there(const std::filesystem::path& path) {
-  std::error_code error;
-  return std::filesystem::exists(path, error);
-}
-
 Fault neither(const std::string& where, const std::string& text) {
   return {where, in_quotes(text) + ", neither a preset nor a file",
           "a medium file, or " + one_of(text, preset_names())};
 }
 
 }  // namespace
+
+bool is_there(const std::filesystem::path& path) {
+  std::error_code error;
+  return std::filesystem::exists(path, error);
+}
 
 bool is_bare_word(std::string_view text) { return !text.empty() && text.find_first_of("/.") == text.npos; }
 
