@@ -34,7 +34,7 @@ fi
 # Sizes are claims that readers check; what they allow (2^31 bytes of a picture) must fit.
 run() {
   local target=$1 options=(-max_total_time="$seconds" -timeout=30 -rss_limit_mb=5000 -print_final_stats=1)
-  case $target in medium | scene | gltf) options+=(-max_len=4096 -dict="$build/seeds/words.dict") ;; *) options+=(-max_len=2048) ;; esac
+  case $target in medium | variant | scene | gltf) options+=(-max_len=4096 -dict="$build/seeds/words.dict") ;; *) options+=(-max_len=2048) ;; esac
   mkdir -p "$build/corpus/$target" "$build/found"
   local code=0
   "$build/fuzz/${target}_fuzz" "${options[@]}" -artifact_prefix="$build/found/$target-" \

@@ -19,6 +19,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 BEYOND_A_SCHEMA = {
     "base_absent.medium.json",  # what a name leads to
     "base_is_bad.medium.json",  # a dial of a model that only the base names
+    "base_long_name.medium.json",
     "base_of_itself.medium.json",
     "base_outside.medium.json",
     "base_unknown.medium.json",

@@ -1,37 +1,13 @@
 // Any bytes as a scene file, alone in its folder: read or refused with a message.
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
-
-#include "tests/fuzz/must.h"
+#include "tests/fuzz/folder.h"
 #include "tyndall/scene/scene_file.h"
 
 using namespace tyndall;
 using fuzz::must;
-namespace fs = std::filesystem;
-
-namespace {
-
-/// A folder in memory where there is one.
-struct Folder {
-  fs::path path;
-  Folder() {
-    std::string name = (fs::exists("/dev/shm") ? fs::path("/dev/shm") : fs::temp_directory_path()) / "tyndall-XXXXXX";
-    must(::mkdtemp(name.data()) != nullptr, "a folder can be made");
-    path = name;
-  }
-  ~Folder() { fs::remove_all(path); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-};
-
-}  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const Folder folder;
-  const fs::path file = folder.path / "fuzz.scene.json";
-  std::ofstream(file, std::ios::binary).write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
+  static const fuzz::Folder folder;
+  const auto file = folder.write("fuzz.scene.json", {reinterpret_cast<const char*>(data), size});
   try {
     const Scene scene = read_scene(file);
     must(is_finite(scene.camera.position) && is_finite(scene.camera.look_at), "the camera is somewhere");

@@ -104,13 +104,24 @@ def main():
         for i, data in enumerate(files):
             put(target, "seed%d" % i, data)
     for target in ("medium", "scene"):
-        for top in ("examples", os.path.join("tests", "bad")):
+        for top in ("examples", "presets", os.path.join("tests", "bad")):
             for path, _, names in os.walk(os.path.join(ROOT, top)):
                 for name in names:
                     if name.endswith(".%s.json" % target):
                         os.makedirs(os.path.join(folder, target), exist_ok=True)
                         shutil.copy(os.path.join(path, name), os.path.join(folder, target, name))
-    words = set()
+    # Each example over the one before, as variants that keep, replace and take away.
+    media = os.path.join(ROOT, "examples", "media")
+    names = sorted(name for name in os.listdir(media) if name.endswith(".medium.json"))
+    for i, name in enumerate(names):
+        with open(os.path.join(media, name), encoding="utf-8") as file, open(os.path.join(media, names[i - 1]), "rb") as base:
+            variant = {"base": "base.medium.json", **{k: v for k, v in json.load(file).items() if k != "name"}, "description": None}
+            put("variant", name, base.read() + b"\0" + json.dumps(variant).encode())
+    with open(os.path.join(media, "cloud_c1.csv"), "rb") as file:
+        put("rows", "cloud", b"".join(file.readlines()[:8]))
+    for i, text in enumerate((b"0;1\r\n180;2\r\n", b"a b\n0 1\n\n#\n1e2 -2.5e-3\n", b"1,2,3,4\n")):
+        put("rows", "seed%d" % i, text)
+    words = {name[: -len(".medium.json")] for name in os.listdir(os.path.join(ROOT, "presets"))} | {"base", "base.medium.json"}
     for name in ("medium", "scene"):
         with open(os.path.join(ROOT, "schema", "tyndall-%s-1.schema.json" % name), encoding="utf-8") as file:
             words_of(json.load(file), words)

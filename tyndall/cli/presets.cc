@@ -63,7 +63,8 @@ void add_presets(CLI::App& app) {
   };
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("presets", "List the media that come with the program, or print one");
-  command->add_option("NAME", options->name, "Print the file of this one, with the sources of its numbers");
+  const CLI::Option* const name =
+      command->add_option("NAME", options->name, "Print the file of this one, with the sources of its numbers");
   command->add_flag("--json", options->json, "Print one JSON object: with NAME the file itself, else the list, in SI");
   command->footer(
       "A preset's name stands for a medium wherever one is asked for. To change one, name it as the base of\n"
@@ -71,7 +72,8 @@ void add_presets(CLI::App& app) {
       "Visibility: 5 % of contrast left, in green, at the origin.\n\n"
       "Example: tyndall presets radiation_fog\n"
       "Example: tyndall show radiation_fog");
-  command->callback([options] { options->name.empty() ? list_presets(options->json) : print_preset(options->name); });
+  command->callback(
+      [options, name] { name->count() == 0 ? list_presets(options->json) : print_preset(options->name); });
 }
 
 }  // namespace tyndall

@@ -8,6 +8,7 @@
 #include "tyndall/document/json_locator.h"
 #include "tyndall/document/medium_file.h"
 #include "tyndall/document/merged_json.h"
+#include "tyndall/document/named_medium.h"
 #include "tyndall/document/preset.h"
 #include "tyndall/document/reference.h"
 #include "tyndall/document/spelling.h"
@@ -23,8 +24,9 @@ std::string identity_of(const fs::path& path) {
   return (error ? path : canonical).string();
 }
 
-/// The text of a base that stands at `where`, and what tells it from others.
-std::pair<JsonText, std::string> base_named(const JsonText& json, const std::string& name, const std::string& where) {
+/// The text of a base, and what tells it from others. Its faults have their place yet to come.
+std::pair<JsonText, std::string> base_named(const JsonText& json, const std::string& name) {
+  const std::string where;
   if (const Preset* preset = preset_named(name)) {
     return {parse_json(std::string(preset->text), title_of(*preset)), title_of(*preset)};
   }
@@ -32,9 +34,8 @@ std::pair<JsonText, std::string> base_named(const JsonText& json, const std::str
     throw Fault(where, "the file name " + in_quotes(name, 100) + " in a text that stands in no folder",
                 "a preset: " + one_of(name, preset_names()));
   }
-  if (name.find_first_of("/.") == name.npos && !name.empty() &&
-      !fs::exists(json.references->naming.parent_path() / name)) {
-    throw Fault(where, in_quotes(name) + ", neither a preset nor a file",
+  if (is_bare_word(name) && !is_there(json.references->naming.parent_path() / name)) {
+    throw Fault(where, in_quotes(name, 100) + ", neither a preset nor a file",
                 "a medium file, or " + one_of(name, preset_names()));
   }
   const fs::path path = referenced_file(json.references->naming, name, json.references->allow_path, where);
@@ -85,19 +86,26 @@ bool is_of_part(const Json& source, const Json& medium) {
   }
 }
 
-void resolve(JsonText& json, const std::string& pointer, std::vector<std::string> chain) {
+/// Returns how much text is under the value at `pointer` now.
+std::uint64_t resolve(JsonText& json, const std::string& pointer, std::vector<std::string> chain) {
   const Json::json_pointer at(pointer);
-  if (!json.root.contains(at)) return;
+  if (!json.root.contains(at)) return 0;
   Json& here = json.root[at];
-  if (!here.is_object() || !here.contains("base")) return;
+  if (!here.is_object() || !here.contains("base")) return 0;
   const std::string key = joined(pointer, "base");
   const auto fault = [&](const std::string& found, const std::string& expected) {
     return Fault(place(json.file, line_of_pointer(json.text, key), key), found, expected);
   };
   const Json& name = here["base"];
   if (!name.is_string()) throw fault(described(name), "the name of a medium file or of a preset");
-  const std::string where = fault("", "").where;
-  auto [base, identity] = base_named(json, name.get_ref<const std::string&>(), where);
+  auto [base, identity] = [&] {
+    try {
+      return base_named(json, name.get_ref<const std::string&>());
+    } catch (const Fault& nameless) {
+      if (!nameless.where.empty()) throw;
+      throw fault(nameless.found, nameless.expected);
+    }
+  }();
   if (std::find(chain.begin(), chain.end(), identity) != chain.end()) {
     throw fault("the base " + in_quotes(name.get_ref<const std::string&>(), 100) + ", which leads back to itself",
                 "a medium that does not build on this one");
@@ -107,7 +115,13 @@ void resolve(JsonText& json, const std::string& pointer, std::vector<std::string
                 "at most " + std::to_string(most_bases));
   }
   chain.push_back(identity);
-  resolve(base, "", std::move(chain));
+  const std::uint64_t below_base = resolve(base, "", std::move(chain)), bytes = base.text.size() + below_base;
+  json.base_bytes += base.base_bytes + bytes;
+  if (json.base_bytes > most_base_bytes) {
+    throw fault("bases with too much text in all", "at most " + std::to_string(most_base_bytes) +
+                                                       " bytes, each counted as "
+                                                       "often as it is built upon");
+  }
   const MediumFile file = medium_file_at(JsonCursor(base));
 
   const auto unit = here.find("meters_per_unit");
@@ -130,6 +144,7 @@ void resolve(JsonText& json, const std::string& pointer, std::vector<std::string
   }
   here = std::move(whole);
   json.bases.emplace(pointer, std::make_shared<const JsonText>(std::move(base)));
+  return bytes;
 }
 
 }  // namespace

@@ -122,6 +122,20 @@ TEST_F(BaseMedium, ObjectsMergeListsAreReplacedNullTakesAway) {
   EXPECT_EQ(whiter.sources[0].of, "/conditions/thickness");
 }
 
+TEST_F(BaseMedium, SmallFilesCannotAskForAnyAmountOfWork) {
+  write("v0.medium.json", R"({"format": "tyndall-medium/1", "description": ")" + std::string(5 << 20, 'x') + "\"}");
+  for (int i = 1; i <= 4; ++i)
+    variant("v" + std::to_string(i) + ".medium.json", "v" + std::to_string(i - 1) + ".medium.json", R"("name": "v")");
+  EXPECT_EQ(read_medium_file(folder_ / "v3.medium.json").name, "v");  // three times 5 MB
+  try {
+    read_medium_file(folder_ / "v4.medium.json");
+    ADD_FAILURE();
+  } catch (const Fault& fault) {
+    EXPECT_THAT(fault.found, HasSubstr("too much text"));
+    EXPECT_THAT(fault.where, HasSubstr("v4.medium.json"));
+  }
+}
+
 TEST_F(BaseMedium, AListOfProfilesIsReplacedWhole) {
   write("fog.medium.json", fog);
   write("patchy.medium.json", R"({"format": "tyndall-medium/1", "base": "fog.medium.json", "conditions": {"profile": [

@@ -48,8 +48,20 @@ NumberFile read_number_file(const JsonCursor& at, const FieldFacts& facts) {
                    "the numbers themselves");
   }
   const ReferenceRule& rule = *at.references();
-  const auto path = referenced_file(rule.naming, name, rule.allow_path, at.fault("", "").where);
-  return {name, path.string(), std::make_shared<const NumberRows>(read_number_rows(path))};
+  std::filesystem::path path;
+  try {
+    path = referenced_file(rule.naming, name, rule.allow_path, "");
+  } catch (const Fault& nameless) {
+    throw at.fault(nameless.found, nameless.expected);  // finding a place is work, of which a text may ask a lot
+  }
+  auto& rows = rule.numbers->files[path.string()];
+  if (!rows) rows = std::make_shared<const NumberRows>(read_number_rows(path));
+  rule.numbers->count += rows->values.size();
+  if (rule.numbers->count > most_named_numbers) {
+    throw at.fault("one file of numbers too many",
+                   "at most " + std::to_string(most_named_numbers) + " numbers from files, counted each time");
+  }
+  return {name, path.string(), rows};
 }
 
 std::size_t read_word(const JsonCursor& at, const std::vector<std::string_view>& words) {
@@ -60,10 +72,12 @@ std::size_t read_word(const JsonCursor& at, const std::vector<std::string_view>&
   return static_cast<std::size_t>(found - words.begin());
 }
 
-void check_keys(const JsonCursor& at, const std::vector<std::string_view>& keys, std::string_view tag) {
+void check_keys(const JsonCursor& at, std::vector<std::string_view> keys, std::string_view tag,
+                std::string_view resolved) {
   if (!at.value().is_object()) throw at.wrong_type("an object with " + one_of("", keys));
   for (const auto& member : at.value().items()) {
     if (member.key() == tag || std::find(keys.begin(), keys.end(), member.key()) != keys.end()) continue;
+    if (!resolved.empty()) keys.push_back(resolved);
     const std::string possible =
         keys.empty() ? "no key besides \"" + std::string(tag) + '"' : one_of(member.key(), keys);
     throw at.at(member.key()).fault("the unknown key " + in_quotes(member.key()), possible);

@@ -37,8 +37,10 @@ int read_integer(const JsonCursor& at, const FieldFacts& facts);
 NumberFile read_number_file(const JsonCursor& at, const FieldFacts& facts);
 /// The index of the text here among words.
 std::size_t read_word(const JsonCursor& at, const std::vector<std::string_view>& words);
-/// A Fault where this is not an object, or has a key that is neither among `keys` nor the tag.
-void check_keys(const JsonCursor& at, const std::vector<std::string_view>& keys, std::string_view tag);
+/// A Fault where this is not an object, or has a key that is neither among `keys` nor the tag. `resolved` is a key that
+/// could have been written too, and has been followed by now.
+void check_keys(const JsonCursor& at, std::vector<std::string_view> keys, std::string_view tag,
+                std::string_view resolved = "");
 /// A Fault where the object here has both of the keys that a demand excludes: an empty list beside a file, which once
 /// read is as if it were not there.
 void check_not_both(const JsonCursor& at, const Demand& demand);
@@ -108,7 +110,11 @@ template <Described T>
 void read_object(const JsonCursor& at, T& out, std::string_view tag = "") {
   std::vector<std::string_view> keys;
   for_each_field<T>([&](const auto& field) { keys.push_back(field.name); });
-  check_keys(at, keys, tag);
+  if constexpr (requires { T::base_key; }) {
+    check_keys(at, keys, tag, T::base_key);
+  } else {
+    check_keys(at, keys, tag);
+  }
   for_each_field<T>([&](const auto& field) {
     const FieldFacts facts = facts_of(field);
     if (at.value().contains(std::string(field.name))) {

@@ -1,6 +1,7 @@
 #pragma once
 // JSON files as text with places: parsed strictly, and able to say on which line a value stands.
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -11,6 +12,7 @@
 
 #include "tyndall/document/fault.h"
 #include "tyndall/number/described.h"
+#include "tyndall/number/number_file.h"
 
 namespace tyndall {
 
@@ -19,10 +21,19 @@ using Json = nlohmann::json;
 inline constexpr std::size_t deepest_json = 64;
 inline constexpr std::size_t largest_json = std::size_t{16} << 20;  // bytes
 
+/// The files of numbers that one text names: each is read once; and how many numbers they stand for, counted each time
+/// that one is named, which is work each time.
+struct NamedNumbers {
+  std::map<std::string, std::shared_ptr<const NumberRows>> files;
+  std::size_t count = 0;
+};
+inline constexpr std::size_t most_named_numbers = 8000000;
+
 /// Where the files that a text names are looked for (reference.h).
 struct ReferenceRule {
   std::filesystem::path naming;  // the file that the text is, or will be
   bool allow_path = false;       // files outside its folder too
+  std::shared_ptr<NamedNumbers> numbers = std::make_shared<NamedNumbers>();
 };
 
 /// A parsed text that remembers where it came from.
@@ -35,6 +46,7 @@ struct JsonText {
   // and the root as this text alone has it.
   std::map<std::string, std::shared_ptr<const JsonText>> bases = {};
   Json own = {};
+  std::uint64_t base_bytes = 0;  // of text that was laid under this one, counted each time that it was
 };
 
 /// Parses UTF-8 JSON (RFC 8259) with no duplicate keys, at most deepest_json levels and only numbers that a double can

@@ -1,7 +1,8 @@
 #pragma once
 // One JSON value laid over another, as described structs are read: what a file with a base says.
 //
-// Objects are merged member by member. A null takes the member away. An object that names another alternative of a
+// Objects are merged member by member. A null takes the member away; one of a name that nothing has stays, for the
+// reader to refuse. An object that names another alternative of a
 // choice (another law, another form of density) replaces the base's, whose members would mean nothing in it. Of
 // fields that exclude each other (demand.h, not_both), those of the upper object win. Lists and everything else are
 // replaced whole.
@@ -14,11 +15,21 @@
 
 namespace tyndall {
 
-/// `upper` without the members that are null, at any depth of objects.
-Json without_nulls(const Json& upper);
-
 template <class T>
 Json merged(const Json& base, const Json& upper);
+
+/// Takes the nulls out of what replaces an object whole, where the object had something: it went with it.
+inline void take_away(Json& out, const Json& base) {
+  for (auto member = out.begin(); member != out.end();) {
+    const auto below = base.find(member.key());
+    if (below != base.end() && member->is_null()) {
+      member = out.erase(member);
+      continue;
+    }
+    if (below != base.end() && member->is_object() && below->is_object()) take_away(*member, *below);
+    ++member;
+  }
+}
 
 /// The members of a described struct; members that it does not have are taken from both, for the reader to refuse.
 template <Described T>
@@ -38,18 +49,19 @@ Json merged_members(const Json& base, const Json& upper) {
   for (const auto& member : upper.items()) {
     const std::string& key = member.key();
     const Json& value = member.value();
-    if (value.is_null()) {
+    Json result = value;
+    bool taken_away = value.is_null() && base.contains(key);
+    for_each_field<T>([&](const auto& field) {
+      using Member = std::remove_cvref_t<decltype(std::declval<T&>().*field.member)>;
+      if (field.name != key) return;
+      taken_away = value.is_null();
+      result = merged<Member>(out.contains(key) ? out.at(key) : Json(), value);
+    });
+    if (taken_away) {
       out.erase(key);
-      continue;
+    } else {
+      out[key] = std::move(result);
     }
-    Json result = without_nulls(value);
-    if (out.contains(key)) {
-      for_each_field<T>([&](const auto& field) {
-        using Member = std::remove_cvref_t<decltype(std::declval<T&>().*field.member)>;
-        if (field.name == key) result = merged<Member>(out.at(key), value);
-      });
-    }
-    out[key] = std::move(result);
   }
   return out;
 }
@@ -74,8 +86,9 @@ std::string alternative_of(const Json& object) {
 template <Choice V>
 Json merged_choice(const Json& base, const Json& upper) {
   const std::string below = alternative_of<V>(base), above = alternative_of<V>(upper);
-  if (!above.empty() && above != below) return without_nulls(upper);
-  Json out = base;
+  const bool replaced = !above.empty() && above != below;
+  const std::string& chosen = replaced ? above : below;
+  Json out = upper;
   bool known = false;
   for_each_alternative<V>([&]<class A>(std::type_identity<A>) {
     std::string name;
@@ -84,17 +97,19 @@ Json merged_choice(const Json& base, const Json& upper) {
     } else {
       name = first_field_name<A>();
     }
-    if (name != below || known) return;
+    if (name != chosen || known) return;
     known = true;
-    out = merged_members<A>(base, upper);
+    out = merged_members<A>(replaced ? Json::object() : base, upper);
   });
-  return known ? out : without_nulls(upper);
+  if (replaced) take_away(out, base);
+  return out;
 }
 
 /// A value of a member of type T.
 template <class T>
 Json merged(const Json& base, const Json& upper) {
-  if (!base.is_object() || !upper.is_object()) return without_nulls(upper);
+  if (!upper.is_object()) return upper;
+  if (!base.is_object()) return merged<T>(Json::object(), upper);
   if constexpr (OptionalMember<T>) {
     return merged<typename T::value_type>(base, upper);
   } else if constexpr (OneOrMoreMember<T>) {
@@ -104,7 +119,7 @@ Json merged(const Json& base, const Json& upper) {
   } else if constexpr (Described<T>) {
     return merged_members<T>(base, upper);
   } else {
-    return without_nulls(upper);
+    return upper;
   }
 }
 

@@ -12,11 +12,6 @@ NamedMedium read_preset(const Preset& preset) {
   return {medium_from_json(std::string(preset.text), title_of(preset)), title_of(preset)};
 }
 
-bool is_there(const std::filesystem::path& path) {
-  std::error_code error;
-  return std::filesystem::exists(path, error);
-}
-
 Fault neither(const std::string& where, const std::string& text) {
   if (is_law_text(text)) {
     return {where, in_quotes(text) + ", a law of scattering",
@@ -27,6 +22,11 @@ Fault neither(const std::string& where, const std::string& text) {
 }
 
 }  // namespace
+
+bool is_there(const std::filesystem::path& path) {
+  std::error_code error;
+  return std::filesystem::exists(path, error);
+}
 
 bool is_bare_word(std::string_view text) { return !text.empty() && text.find_first_of("/.") == text.npos; }
 

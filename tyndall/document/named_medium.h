@@ -16,6 +16,9 @@ struct NamedMedium {
 /// Whether `text` can be nothing but a word: no path and no name of a file with an ending.
 bool is_bare_word(std::string_view text);
 
+/// Whether anything is at a path.
+bool is_there(const std::filesystem::path& path);
+
 /// The preset of this name, else the file. A preset's name wins over a file that is called the same without any ending,
 /// so that a command means the same in every folder; "./haze" is the file. Throws Fault, for a word that is neither
 /// with the nearest spelling.

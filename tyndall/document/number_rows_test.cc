@@ -144,6 +144,25 @@ TEST(TableFile, MeansWhatTheSameNumbersInlineMean) {
   EXPECT_NEAR(density(in_channel(four, 2), d), 1.0 / (4.0 * std::acos(-1.0)), 1e-15);
 }
 
+TEST(TableFile, IsReadOnceAndNamedSoOftenOnly) {
+  const Folder folder;
+  std::string rows;
+  for (int i = 0; i <= 90000; ++i) rows += std::to_string(i / 500.0) + ",1\n";
+  folder.write("t.csv", rows);
+  const auto named = [&](int times) {
+    std::string species;
+    for (int i = 0; i < times; ++i) {
+      species += std::string(i > 0 ? "," : "") + R"({"scattering": 1, "phase": {"law": "tabulated", "file": "t.csv"}})";
+    }
+    return read_medium_file(
+        folder.write("m.medium.json", R"({"format": "tyndall-medium/1", "species": [)" + species + "]}"));
+  };
+  const MediumFile two = named(2);
+  EXPECT_EQ(std::get<Tabulated<double>>(two.species[0].phase).file->rows,
+            std::get<Tabulated<double>>(two.species[1].phase).file->rows);
+  EXPECT_THAT(fault_of([&] { named(45); }), HasSubstr("/species/44/phase/file: found one file of numbers too many"));
+}
+
 TEST(TableFile, IsRefusedAtItsPlace) {
   const Folder folder;
   const auto message = [&](const std::string& phase) {

@@ -224,6 +224,14 @@ class SchemaBook {
     return schema;
   }
 
+  /// An object of a choice. In a file with a base, what another alternative has may be taken away.
+  template <Described A>
+  OrderedJson alternative_schema(const std::string& tag = "", const OrderedJson& word = nullptr) {
+    OrderedJson schema = object_schema<A>(tag, word);
+    if (partial_) schema["additionalProperties"] = {{"type", "null"}};
+    return schema;
+  }
+
   /// The tag and its words first, for completion and for the message about an unknown word; then, for the word that is
   /// there, its alternative.
   template <NamedChoice V>
@@ -238,18 +246,19 @@ class SchemaBook {
       meanings += (meanings.empty() ? "" : "\n") + std::string(A::name) + ": " + std::string(A::text);
       const OrderedJson named{{"properties", {{key, {{"const", std::string(A::name)}}}}}, {"required", {key}}};
       const OrderedJson word{{"const", std::string(A::name)}, {"description", std::string(A::text)}};
-      alternatives.push_back({{"if", named}, {"then", object_schema<A>(key, word)}});
+      alternatives.push_back({{"if", named}, {"then", alternative_schema<A>(key, word)}});
       for_each_field<A>([&](const auto& field) { keys.insert(std::string(field.name)); });
       if (is_example<A>() && !partial_) examples.push_back(written(V{A{}}));
     });
-    if (partial_) {  // the base says which alternative
-      alternatives.push_back(
-          {{"if", {{"not", {{"required", {key}}}}}}, {"then", {{"propertyNames", {{"enum", keys}}}}}});
-    }
     OrderedJson word = words_schema(words);
     word["description"] = meanings;
     OrderedJson schema{{"type", "object"}, {"properties", {{key, word}}}};
-    if (!partial_) schema["required"] = {key};
+    if (!partial_) {
+      schema["required"] = {key};
+    } else {
+      keys.insert(key);
+      schema["propertyNames"] = {{"enum", keys}};
+    }
     schema["allOf"] = std::move(alternatives);
     if (!examples.empty()) schema["examples"] = std::move(examples);
     return schema;
@@ -279,7 +288,7 @@ class SchemaBook {
         describe(value, facts);
         firsts[name] = std::move(value);
         forms.push_back({{"required", {name}}});
-        objects.push_back(object_schema<A>());
+        objects.push_back(alternative_schema<A>());
       }
       if (is_example<A>() && !partial_) examples.push_back(written(V{A{}}));
     });

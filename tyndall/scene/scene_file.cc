@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "tyndall/document/base_medium.h"
@@ -90,11 +91,18 @@ void note_darkness(Scene& scene, const fs::path& file) {
   }
 }
 
+/// Warns, once of each; after some hundred that more are not shown.
+void warn(Scene& scene, std::string text) {
+  constexpr std::size_t most = 200;
+  if (scene.warnings.size() > most || std::ranges::find(scene.warnings, text) != scene.warnings.end()) return;
+  if (scene.warnings.size() == most) text = "more warnings of this kind are not shown";
+  scene.warnings.push_back(std::move(text));
+}
+
 /// What in a medium is outside what physics allows, once for each place; the medium is at `pointer` of the file.
 void note_remarks(Scene& scene, const MediumFile& medium, const std::string& file, const std::string& pointer) {
   for (const Remark& remark : remarks_on(medium)) {
-    const std::string text = remark_text(remark, file, pointer);
-    if (std::ranges::find(scene.warnings, text) == scene.warnings.end()) scene.warnings.push_back(text);
+    warn(scene, remark_text(remark, file, pointer));
   }
 }
 
@@ -197,15 +205,38 @@ class Assembly {
     return scaled;
   }
 
+  /// What `act` returns; its fault without a place is at `at`. Places take a walk through the text: lists of a hundred
+  /// thousand names are looked up without.
+  template <class Act>
+  static auto placed(const JsonCursor& at, Act act) {
+    try {
+      return act();
+    } catch (const Fault& fault) {
+      if (!fault.where.empty()) throw;
+      throw at.fault(fault.found, fault.expected);
+    }
+  }
+
+  /// The medium of this name, read once.
+  const NamedMedium& named_medium(const std::string& name, const JsonCursor& at) {
+    auto found = named_media_.find(name);
+    if (found == named_media_.end()) {
+      found = named_media_
+                  .emplace(name, placed(at, [&] { return read_named_medium(file_, name, options_.allow_path, ""); }))
+                  .first;
+    }
+    return found->second;
+  }
+
   /// The file that a text of this scene names.
   fs::path named(const std::string& name, const JsonCursor& at) const {
-    return referenced_file(file_, name, options_.allow_path, at.fault("", "").where);
+    return placed(at, [&] { return referenced_file(file_, name, options_.allow_path, ""); });
   }
 
   void add_medium(const MediumReference& reference, const JsonCursor& at, const std::vector<Profile>& profiles) {
     if (const auto* text = std::get_if<MediumName>(&reference)) {
-      const auto [medium, name] = read_named_medium(file_, text->file, options_.allow_path, at.fault("", "").where);
-      add_medium(medium, name, "", profiles);
+      const NamedMedium& named = named_medium(text->file, at);
+      add_medium(named.file, named.name, "", profiles);
     } else {
       add_medium(medium_file_at(at), at.file(), at.pointer(), profiles);
     }
@@ -216,9 +247,8 @@ class Assembly {
                   const std::vector<Profile>& profiles) {
     const ChannelTag channels = channels_of(file);
     if (channels_ && *channels_ != channels) {
-      scene_.warnings.push_back(place(name, 0, pointer) +
-                                ": its channels mean something else than those of the first medium; they are added one "
-                                "by one");
+      warn(scene_, place(name, 0, pointer) +
+                       ": its channels mean something else than those of the first medium; they are added one by one");
     }
     if (!channels_) channels_ = channels;
     note_remarks(scene_, file, name, pointer);
@@ -265,6 +295,7 @@ class Assembly {
   SceneInTime whole_;
   Scene& scene_ = whole_.scene;
   std::optional<ChannelTag> channels_;
+  std::map<std::string, NamedMedium> named_media_;
 };
 
 /// A medium written in place need not repeat what the scene file says already.
