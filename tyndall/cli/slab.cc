@@ -123,7 +123,9 @@ void add_slab(CLI::App& app) {
   command->footer(
       "A beam enters the top of a flat layer, black outside; all orders of scattering. Numbers are shares of the "
       "light\n"
-      "on the layer; R(mu) and T(mu) are exit radiances, I = R mu0 E / pi for a beam of irradiance E.\n\n"
+      "on the layer; R(mu) and T(mu) are exit radiances, I = R mu0 E / pi for a beam of irradiance E. With --json "
+      "each\n"
+      "has its own standard_error: reflectance, transmittance_diffuse, and with --mu reflection and transmission.\n\n"
       "Example: tyndall slab examples/media/harbour_fog.medium.json --thickness 100 --mu0 0.3");
   command->callback([options] { slab(*options); });
 }

@@ -47,9 +47,7 @@ std::pair<JsonText, std::string> base_named(const JsonText& json, const std::str
 /// The base's members, with lengths in units of `meters_per_unit`.
 Json in_unit(const JsonText& base, const MediumFile& file, double meters_per_unit) {
   if (file.meters_per_unit == meters_per_unit) return base.root;
-  MediumFile converted = file;
-  static_cast<MediumDials&>(converted) =
-      in_metres(static_cast<const MediumDials&>(file), file.meters_per_unit / meters_per_unit);
+  MediumFile converted = in_metres(file, file.meters_per_unit / meters_per_unit);
   converted.meters_per_unit = meters_per_unit;
   return Json::parse(medium_to_json(converted));
 }
@@ -75,6 +73,16 @@ void drop_overridden(Json& sources, const Json& upper) {
     return true;
   };
   sources.erase(std::remove_if(sources.begin(), sources.end(), overridden), sources.end());
+}
+
+/// Whether a source is of something that stands in `medium`.
+bool is_of_part(const Json& source, const Json& medium) {
+  const auto of = source.find("of");
+  try {
+    return of != source.end() && of->is_string() && medium.contains(Json::json_pointer(of->get<std::string>()));
+  } catch (const Json::parse_error&) {  // no pointer at all: for people only
+    return false;
+  }
 }
 
 void resolve(JsonText& json, const std::string& pointer, std::vector<std::string> chain) {
@@ -112,7 +120,15 @@ void resolve(JsonText& json, const std::string& pointer, std::vector<std::string
   if (json.bases.empty()) json.own = json.root;
   Json upper = here;
   upper.erase("base");
-  here = merged_members<MediumFile>(below, upper);
+  Json whole = merged_members<MediumFile>(below, upper);
+  if (!upper.contains("sources") && whole.contains("sources") && whole["sources"].is_array()) {
+    // Nor are there sources of what was taken away.
+    Json& sources = whole["sources"];
+    sources.erase(std::remove_if(sources.begin(), sources.end(),
+                                 [&](const Json& s) { return is_of_part(s, below) && !is_of_part(s, whole); }),
+                  sources.end());
+  }
+  here = std::move(whole);
   json.bases.emplace(pointer, std::make_shared<const JsonText>(std::move(base)));
 }
 

@@ -111,7 +111,10 @@ struct PathTracer::State {
       const std::optional<Hit> hit = context.geometry.intersect(walk.ray);
       const double end = hit ? hit->t : infinity;
       stretches_along(context.medium, walk.ray, end, stretches);
-      if (may_go_on(walk)) lamps_along(walk, end, random);
+      if (may_go_on(walk)) {
+        lamps_along(walk, end, random);
+        suns_along(walk, end, random);
+      }
       const Flight flight = sample_flight(stretches, walk.beta, end, false, random.next(), random.next());
       walk.beta *= flight.weight;
       if (is_zero(walk.beta)) return;
@@ -165,11 +168,12 @@ struct PathTracer::State {
     }
   }
 
-  /// Sunlight scattered once toward the eye: shafts are light or shadow, so their share of the eye's segment is
-  /// measured at several places, spread evenly over the chances of a collision.
+  /// Sunlight scattered toward the walk from its segment [0, end], whatever happens to the walk later: in thin air few
+  /// walks collide, and those that do would bring all of it. Shafts are light or shadow, so their share of the eye's
+  /// segment is measured at several places, spread evenly over the chances of a collision.
   void suns_along(const Walk& walk, double end, RandomStream& random) {
     if (stretches.empty() || context.lights.suns.empty()) return;
-    constexpr int places = 8;
+    const int places = walk.depth() == 0 ? 8 : 1;
     for (int i = 0; i < places; ++i) {
       const double xi_channel = random.next(), xi = (i + random.next()) / places;
       const Flight flight = sample_flight(stretches, walk.beta, end, true, xi_channel, xi);
@@ -267,7 +271,7 @@ struct PathTracer::State {
     return per_area * length_squared(way) / facing;
   }
 
-  /// A collision at distance t of the walk's segment: adds direct light of sun, surroundings and emissive surfaces, and
+  /// A collision at distance t of the walk's segment: adds direct light of surroundings and emissive surfaces, and
   /// turns.
   bool collide(Walk& walk, double t, RandomStream& random) {
     scatter.set(context.medium, stretches, t);
@@ -277,7 +281,6 @@ struct PathTracer::State {
     if (is_zero(walk.beta * scatter.scattering())) return false;
     // Light travels against the walk: toward the eye along -direction.
     const auto toward = [&](const Vector& to_light) { return deflection_between(-to_light, -walk.ray.direction); };
-    if (walk.depth() > 0) sunlight(walk, scatter, point, walk.beta, random);  // the eye's segment has had its own
     for (const auto& light :
          {context.lights.sample_environment(random), context.lights.sample_emitter(point, random)}) {
       if (!(light.density > 0.0)) continue;
