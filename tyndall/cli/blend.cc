@@ -27,9 +27,7 @@ BlendHow how_of(const std::string& word) {
 }
 
 void blend(const BlendOptions& options) {
-  if (!(options.at >= 0.0 && options.at <= 1.0)) {
-    throw Fault("--at", "the number " + short_number(options.at), "a number from 0 (the first) to 1 (the second)");
-  }
+  check_output(options.out, ".json", "a name ending in .medium.json");
   const BlendHow how = how_of(options.how);
   MediumFile a = read_named_medium(options.a, options.allow_path).file;
   MediumFile b = read_named_medium(options.b, options.allow_path).file;
@@ -51,7 +49,7 @@ void add_blend(CLI::App& app) {
   CLI::App* command = app.add_subcommand("blend", "Make a medium that stands between two");
   command->add_option("A", options->a, "Medium file or preset to start from")->required();
   command->add_option("B", options->b, "Medium file or preset to go to")->required();
-  command->add_option("--at", options->at, "How far: 0 is A, 1 is B")->required();
+  command->add_option("--at", options->at, "How far: 0 is A, 1 is B")->required()->check(number_within(0.0, 1.0));
   command->add_option("--how", options->how, "interpolate, mix or morph")->capture_default_str();
   command->add_option("-o,--output", options->out, "Medium file to write (*.medium.json)")->required();
   add_allow_path(*command, options->allow_path);
