@@ -39,42 +39,7 @@ void expect_near(const Spectrum& got, const Spectrum& expected, double relative,
 using Blender = Blend (*)(MediumDials, MediumDials, double);
 Blend interpolate_in_metres(MediumDials a, MediumDials b, double t) { return interpolate(a, b, t); }
 
-/// Any two media that can be interpolated: the same models, laws and profiles, other numbers.
-std::pair<MediumDials, MediumDials> like_pair(Dice& dice) {
-  MediumDials a = dice.medium();
-  a.species.clear();
-  MediumDials b = a;
-  if (a.background) b.background->exaggeration = dice.between(0.0, 3.0);
-  if (auto* s = a.conditions ? std::get_if<Simple>(&*a.conditions) : nullptr) {
-    Simple other = dice.simple();
-    other.profile = s->profile;
-    b.conditions = other;
-  } else if (auto* l = a.conditions ? std::get_if<TwoLobes>(&*a.conditions) : nullptr) {
-    TwoLobes other = dice.two_lobes();
-    other.profile = l->profile;
-    b.conditions = other;
-  } else if (auto* e = a.conditions ? std::get_if<TwoLobesExplicit>(&*a.conditions) : nullptr) {
-    TwoLobesExplicit other = dice.two_lobes_explicit();
-    other.profile = e->profile;
-    b.conditions = other;
-  } else if (auto* m = a.conditions ? std::get_if<Measured>(&*a.conditions) : nullptr) {
-    Measured other = dice.measured();
-    while (other.air != m->air || objection_to(other)) other = dice.measured();
-    other.albedo = m->albedo;
-    other.angstrom_exponent = m->angstrom_exponent;
-    other.mean_cosine = m->mean_cosine;
-    other.profile = m->profile;
-    b.conditions = other;
-  }
-  a.species.push_back(dice.species("soot"));
-  b.species.push_back(dice.species("soot"));
-  b.species.back().phase = a.species.back().phase;
-  b.species.back().profile = a.species.back().profile;
-  if (dice.coin()) b.species.push_back(dice.species("dust"));
-  Dice::make_possible(a);
-  Dice::make_possible(b);
-  return {a, b};
-}
+std::pair<MediumDials, MediumDials> like_pair(Dice& dice) { return dice.like_pair(); }
 
 TEST(Interpolate, MovesWAndExtinctionInStraightLines) {
   const Simple haze{0.4, PlainExtinction{Spectrum::grey(1e-4)}, Spectrum::grey(1.0), {}, {}, {}};

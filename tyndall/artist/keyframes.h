@@ -62,11 +62,11 @@ inline KeyInterval interval_at(const Keyframes& keys, double time) {
   return {from, to, (time - keys[from].time) / (keys[to].time - keys[from].time)};
 }
 
-/// An objection to the conditions of a medium, as one to those of a key.
+/// An objection to the conditions of a medium, or to the whole of it, as one to a key.
 inline Objection of_key(Objection objection, std::size_t key) {
-  if (objection.field.rfind("conditions", 0) == 0) {
-    objection.field = "keyframes/" + std::to_string(key) + '/' + objection.field;
-  }
+  const std::string here = "keyframes/" + std::to_string(key);
+  if (objection.field.empty()) objection.field = here;
+  if (objection.field.rfind("conditions", 0) == 0) objection.field = here + '/' + objection.field;
   return objection;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 #include <string>
+#include <utility>
 
 #include "tyndall/artist/medium_dials.h"
 
@@ -58,7 +59,26 @@ class Dice {
     return out;
   }
   std::optional<Profiles> one_profile() {
-    switch (below(6)) {
+    switch (below(10)) {
+      case 6: {
+        const double low = -magnitude(0.1, 100.0);
+        return LayerProfile{low, low + magnitude(1.1, 3.0) * -low};
+      }
+      case 7: {
+        const double half = magnitude(1.0, 1e3);
+        return TentProfile{between(-0.9, 0.9) * half, half};
+      }
+      case 8: {
+        const double size = magnitude(2.0, 100.0);
+        if (coin()) return SphereProfile{{0.3 * size, -0.2 * size, 0.1 * size}, size, between(0.0, 1.0) * size};
+        return BoxProfile{{-size, -0.5 * size, -size}, {size, 0.5 * size, 2.0 * size}, between(0.0, 0.5) * size};
+      }
+      case 9:
+        return NoiseProfile{magnitude(0.1, 100.0),
+                            1 + below(8),
+                            between(0.0, 1.0),
+                            below(100),
+                            {between(-9.0, 9.0), between(-1.0, 1.0), between(-9.0, 9.0)}};
       case 0:
         return ConstantProfile{};
       case 1:
@@ -86,7 +106,21 @@ class Dice {
     return out;
   }
   Law<double> law(int depth = 0) {
-    switch (below(depth < 2 ? 7 : 6)) {
+    switch (below(depth < 2 ? 14 : 13)) {
+      case 6:
+        return NishitaMurky<double>{};
+      case 7:
+        return Schlick<double>{between(-0.99, 0.99)};
+      case 8:
+        return CornetteShanks<double>{between(-0.99, 0.99)};
+      case 9:
+        return Draine<double>{between(-0.99, 0.99), between(0.0, 5.0)};
+      case 10:
+        return Droplet<double>{magnitude(0.01, 50.0)};
+      case 11:
+        return LambertSphere<double>{};
+      case 12:
+        return FournierForand<double>{between(1.01, 1.3), between(3.1, 4.9)};
       case 0:
         return Isotropic<double>{};
       case 1:
@@ -204,7 +238,54 @@ class Dice {
     MediumDials dials{background(), conditions(), {}, {}};
     for (int i = below(3); i > 0; --i) dials.species.push_back(species(coin() ? "soot" : "dust"));
     make_possible(dials);
+    hold_where_possible(dials);
     return dials;
+  }
+  /// Now and then, visibility held.
+  void hold_where_possible(MediumDials& dials) {
+    auto* simple = dials.conditions ? std::get_if<Simple>(&*dials.conditions) : nullptr;
+    if (simple == nullptr || !coin(0.4)) return;
+    simple->hold = Hold::visibility;
+    if (std::holds_alternative<Objection>(compile(dials))) simple->hold.reset();
+  }
+
+  /// Any two media that can be interpolated: the same models, laws and profiles, other numbers. Held visibility is
+  /// where its profile is the same in both.
+  std::pair<MediumDials, MediumDials> like_pair() {
+    MediumDials a = medium();
+    a.species.clear();
+    MediumDials b = a;
+    if (a.background) b.background->exaggeration = between(0.0, 3.0);
+    if (auto* s = a.conditions ? std::get_if<Simple>(&*a.conditions) : nullptr) {
+      s->hold.reset();
+      Simple other = simple();
+      other.profile = s->profile;
+      b.conditions = other;
+    } else if (auto* l = a.conditions ? std::get_if<TwoLobes>(&*a.conditions) : nullptr) {
+      TwoLobes other = two_lobes();
+      other.profile = l->profile;
+      b.conditions = other;
+    } else if (auto* e = a.conditions ? std::get_if<TwoLobesExplicit>(&*a.conditions) : nullptr) {
+      TwoLobesExplicit other = two_lobes_explicit();
+      other.profile = e->profile;
+      b.conditions = other;
+    } else if (auto* m = a.conditions ? std::get_if<Measured>(&*a.conditions) : nullptr) {
+      Measured other = measured();
+      while (other.air != m->air || objection_to(other)) other = measured();
+      other.albedo = m->albedo;
+      other.angstrom_exponent = m->angstrom_exponent;
+      other.mean_cosine = m->mean_cosine;
+      other.profile = m->profile;
+      b.conditions = other;
+    }
+    a.species.push_back(species("soot"));
+    b.species.push_back(species("soot"));
+    b.species.back().phase = a.species.back().phase;
+    b.species.back().profile = a.species.back().profile;
+    if (coin()) b.species.push_back(species("dust"));
+    make_possible(a);
+    make_possible(b);
+    return {a, b};
   }
 
  private:

@@ -1,13 +1,15 @@
 // tyndall blend: a medium between two.
+#include <filesystem>
 #include <iostream>
 #include <string>
 
 #include "tyndall/cli/arguments.h"
 #include "tyndall/cli/commands.h"
+#include "tyndall/cli/medium_arguments.h"
 #include "tyndall/cli/warnings.h"
 #include "tyndall/document/binding.h"
 #include "tyndall/document/medium_blend.h"
-#include "tyndall/document/named_medium.h"
+#include "tyndall/document/preset.h"
 
 namespace tyndall {
 namespace {
@@ -15,7 +17,7 @@ namespace {
 struct BlendOptions {
   std::string a, b, out, how = "interpolate";
   double at = 0.0;
-  bool allow_path = false;
+  MediumArguments media;
 };
 
 BlendHow how_of(const std::string& word) {
@@ -26,19 +28,31 @@ BlendHow how_of(const std::string& word) {
   throw Fault("--how", in_quotes(word), one_of(word, {words.begin(), words.end()}));
 }
 
+/// A Fault where the new file would take the place of one that it is made of.
+void check_not_an_input(const BlendOptions& options) {
+  std::error_code error;
+  for (const std::string& input : {options.a, options.b}) {
+    if (preset_named(input) == nullptr && std::filesystem::equivalent(input, options.out, error)) {
+      throw Fault("--output", "the file " + in_quotes(options.out) + ", one of the two media",
+                  "another name: what is blended is not overwritten");
+    }
+  }
+}
+
 void blend(const BlendOptions& options) {
   check_output(options.out, ".json", "a name ending in .medium.json");
   const BlendHow how = how_of(options.how);
-  MediumFile a = read_named_medium(options.a, options.allow_path).file;
-  MediumFile b = read_named_medium(options.b, options.allow_path).file;
+  check_not_an_input(options);
+  auto [stated_a, a] = medium_of(options.a, options.media);
+  auto [stated_b, b] = medium_of(options.b, options.media);
   move_schema(a, options.a, options.out);
   move_schema(b, options.b, options.out);
   if (channels_of(a) != channels_of(b)) {
     std::cerr << "tyndall: warning: the channels of " << printable(options.a) << " and " << printable(options.b)
               << " mean different things; they are blended one by one\n";
   }
-  warn(a, options.a);
-  if (options.b != options.a) warn(b, options.b);
+  warn(stated_a, options.a);
+  if (options.b != options.a) warn(stated_b, options.b);
   write_medium_file(options.out, blended(a, b, options.at, how, "blend of " + options.a + " and " + options.b));
 }
 
@@ -52,7 +66,7 @@ void add_blend(CLI::App& app) {
   command->add_option("--at", options->at, "How far: 0 is A, 1 is B")->required()->check(number_within(0.0, 1.0));
   command->add_option("--how", options->how, "interpolate, mix or morph")->capture_default_str();
   command->add_option("-o,--output", options->out, "Medium file to write (*.medium.json)")->required();
-  add_allow_path(*command, options->allow_path);
+  add_medium_arguments(*command, options->media);
   command->footer(
       "interpolate moves every dial (w, thickness, lobes, ...) in a straight line; both media must use the\n"
       "  same model.\n"

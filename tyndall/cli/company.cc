@@ -55,6 +55,8 @@ void Company::agree_on(const std::string& text, const std::string& what) {
   });
 }
 
+bool Company::all_go_on(bool own) { return ranks_ ? ranks_->least(own ? 1 : 0) == 1 : own; }
+
 void Company::leave() {
   if (ranks_) ranks_->leave();
 }

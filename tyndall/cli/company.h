@@ -32,6 +32,8 @@ class Company {
   void together(const std::function<void()>& step);
   /// Ends all, as together(), where `text` is not the same in all processes.
   void agree_on(const std::string& text, const std::string& what);
+  /// True where every process says so.
+  bool all_go_on(bool own);
   /// Nothing is left to do with the others. A process that ends otherwise ends them all.
   void leave();
 

@@ -51,7 +51,7 @@ class FilmKeeper {
   template <class Write>
   void keep_up(Schedule& schedule, double least_interval, Write write);
 
-  const LongWork& options_;
+  LongWork options_;
   CheckpointSubject subject_;
   std::function<void(const std::filesystem::path&, const SampleFilm&)> write_preview_;
   std::optional<Schedule> checkpoint_, preview_;

@@ -10,12 +10,12 @@
 #include "tyndall/cli/arguments.h"
 #include "tyndall/cli/commands.h"
 #include "tyndall/cli/law_list.h"
+#include "tyndall/cli/medium_arguments.h"
 #include "tyndall/cli/number_list.h"
 #include "tyndall/cli/table.h"
 #include "tyndall/cli/warnings.h"
 #include "tyndall/document/law_text.h"
 #include "tyndall/document/medium_summary.h"
-#include "tyndall/document/named_medium.h"
 #include "tyndall/document/spelling.h"
 #include "tyndall/phase/merged_lobes.h"
 
@@ -28,7 +28,8 @@ struct PhaseOptions {
   std::string subject, at_text, sample_text;
   std::vector<double> at, sample;
   std::optional<int> moments;
-  bool json = false, allow_path = false;
+  bool json = false;
+  MediumArguments media;
 };
 
 /// What is asked of either subject: a law answers with one number, a medium with one per channel.
@@ -61,7 +62,7 @@ struct Subject {
   }
 };
 
-Subject subject_of(const std::string& text, bool allow_path) {
+Subject subject_of(const std::string& text, const MediumArguments& media) {
   if (is_law_text(text)) {
     const Law<double> law = law_from_text(text);
     if (!is_chromatic(law)) return {{merged(lower(law))}, law, text};
@@ -69,10 +70,10 @@ Subject subject_of(const std::string& text, bool allow_path) {
     for (auto& lobes : lower_channels(law)) out.channels.push_back(merged(std::move(lobes)));
     return out;
   }
-  const MediumFile file = read_named_medium_beside_laws("phase", text, allow_path).file;
-  warn(file, text);
-  const auto mixture = mixture_at(compile(file, text));
-  return {{mixture.begin(), mixture.end()}, std::nullopt, file.name};
+  const auto [stated, now] = in_time(read_named_medium_beside_laws("phase", text, media.allow_path), media);
+  warn(stated, text);
+  const auto mixture = mixture_at(compile(now, text));
+  return {{mixture.begin(), mixture.end()}, std::nullopt, now.name};
 }
 
 OrderedJson answers(const Subject& subject, const PhaseOptions& options) {
@@ -136,7 +137,7 @@ void print_tables(const Subject& subject, const PhaseOptions& options) {
 void phase(PhaseOptions options) {
   options.at = numbers_from(options.at_text, "--at", -1.0, 1.0);
   options.sample = numbers_from(options.sample_text, "--sample", 0.0, 1.0);
-  const Subject subject = subject_of(options.subject, options.allow_path);
+  const Subject subject = subject_of(options.subject, options.media);
   if (options.json) {
     std::cout << pretty(answers(subject, options));
     return;
@@ -164,7 +165,7 @@ void add_phase(CLI::App& app) {
   command->add_option("--sample", options->sample_text, "Sampled mu for these random numbers from 0 to 1")
       ->type_name("U,..");
   command->add_flag("--json", options->json, "Print one JSON object: a law gives numbers, a medium lists [r, g, b]");
-  add_allow_path(*command, options->allow_path);
+  add_medium_arguments(*command, options->media);
   command->footer(law_list() +
                   "\nmu = 1 is straight on, mu = -1 straight back. A medium is taken at the origin.\n\n"
                   "Example: tyndall phase henyey_greenstein:g=0.7 --at 1,0,-1 --moments 4");

@@ -9,8 +9,8 @@
 #include "tyndall/cli/arguments.h"
 #include "tyndall/cli/commands.h"
 #include "tyndall/cli/law_list.h"
+#include "tyndall/cli/medium_arguments.h"
 #include "tyndall/document/law_text.h"
-#include "tyndall/document/named_medium.h"
 #include "tyndall/document/spelling.h"
 #include "tyndall/document/whole_file.h"
 #include "tyndall/plot/plot.h"
@@ -29,7 +29,8 @@ struct PixelSize {
 struct Options {
   std::vector<std::string> subjects;
   std::string output, what = "all", size;
-  bool logarithmic = false, species = false, allow_path = false;
+  bool logarithmic = false, species = false;
+  MediumArguments media;
 };
 
 constexpr int least_pixels = 100, most_side = 16384, usual_width = 1600;
@@ -53,9 +54,9 @@ std::array<std::string, channel_count> channel_names(const MediumFile& file) {
   return names;
 }
 
-Subject subject_from(const std::string& text, bool allow_path) {
+Subject subject_from(const std::string& text, const MediumArguments& media) {
   if (is_law_text(text)) return subject_of(law_title(text), law_from_text(text));
-  const MediumFile file = read_named_medium_beside_laws("plot", text, allow_path).file;
+  const MediumFile file = in_time(read_named_medium_beside_laws("plot", text, media.allow_path), media).now;
   std::string name = file.name;
   if (name.empty()) name = std::filesystem::path(text).stem().stem().string();
   Subject subject = subject_of(printable(name, 120), compile(file, text));
@@ -138,7 +139,7 @@ void plot_to_file(const Options& options) {
                 "at most " + std::to_string(most_plotted) + " in one picture");
   }
   std::vector<Subject> subjects;
-  for (const std::string& text : options.subjects) subjects.push_back(subject_from(text, options.allow_path));
+  for (const std::string& text : options.subjects) subjects.push_back(subject_from(text, options.media));
   const Figure figure = plot(subjects, how);
   kind == ".svg" ? write_svg(options.output, figure, size) : write_png(options.output, figure, size);
 }
@@ -164,7 +165,7 @@ void add_plot(CLI::App& app) {
   command->add_flag("--species", options->species, "Thin lines for each species of a medium, each part of a law");
   command->add_option("--size", options->size, "Pixels, for example 1600x1200 (default: as large as it takes)")
       ->type_name("WxH");
-  add_allow_path(*command, options->allow_path);
+  add_medium_arguments(*command, options->media);
   command->footer(
       law_list() +
       "\nOne medium is drawn in its red, green and blue; of several, each has a line of its own (its green).\n"

@@ -91,7 +91,7 @@ void probe(const ProbeOptions& options) {
     throw Fault("--direction", "nothing", "the direction to look in, as x,y,z");
   }
   const Vector origin = vector_from(options.origin, "--origin");
-  const Scene scene = scene_of(options.scene);
+  const Scene scene = scene_of(options.scene).scene;
   const double metres = scene.meters_per_unit;
   print(options, estimate(options, scene, {origin * metres, direction}, options.distance * metres));
 }

@@ -15,6 +15,7 @@
 #include "tyndall/cli/arguments.h"
 #include "tyndall/cli/commands.h"
 #include "tyndall/cli/company.h"
+#include "tyndall/cli/frames.h"
 #include "tyndall/cli/long_work.h"
 #include "tyndall/cli/progress.h"
 #include "tyndall/cli/scene_arguments.h"
@@ -31,7 +32,7 @@ namespace {
 
 struct RenderOptions {
   SceneArguments scene;
-  std::string size, integrator, tone = "filmic";
+  std::string frames, size, integrator, tone = "filmic";
   std::vector<std::string> outputs;
   int spp = 0, threads = 0;
   double exposure = 0.0;
@@ -89,10 +90,10 @@ Film film_size(const std::string& text) {
 }
 
 /// Everything about the outputs that can be known before the work.
-void check_outputs(const std::vector<std::string>& outputs) {
-  std::set<std::filesystem::path> seen;
+void check_outputs(const std::vector<std::string>& outputs, std::set<std::filesystem::path>& seen) {
   for (const std::string& output : outputs) {
-    if (const std::string kind = std::filesystem::path(output).extension().string(); kind != ".exr" && kind != ".png") {
+    const std::filesystem::path path(output);
+    if (const std::string kind = path.extension().string(); kind != ".exr" && kind != ".png") {
       throw Fault("--output", "the file name " + in_quotes(output), "a name ending in .exr or .png");
     }
     check_writable(output);
@@ -107,9 +108,9 @@ Development looks_of(const RenderOptions& options) {
 }
 
 /// Writes them all even if one cannot be written: the others may be all that is left of a night's work.
-void write_outputs(const RenderOptions& options, const Image& image) {
+void write_outputs(const RenderOptions& options, const std::vector<std::string>& outputs, const Image& image) {
   std::exception_ptr failure;
-  for (const std::string& output : options.outputs) {
+  for (const std::string& output : outputs) {
     try {
       if (std::filesystem::path(output).extension() == ".exr") {
         write_exr(output, image);
@@ -123,57 +124,113 @@ void write_outputs(const RenderOptions& options, const Image& image) {
   if (failure) std::rethrow_exception(failure);
 }
 
-/// A picture to be made: all that must be right before work begins.
+/// What the bar says of the work on a picture, which may be one of several.
+std::string progress_text(const RenderProgress& p, const Frames& frames, const std::optional<int>& frame) {
+  char text[96] = "";
+  if (p.noise > 0.0) std::snprintf(text, sizeof text, "%d samples, noise %.1f %%", p.spp, 100.0 * p.noise);
+  if (!frame) return text;
+  return "frame " + std::to_string(*frame) + " (" + std::to_string(*frame - frames.first + 1) + " of " +
+         std::to_string(frames.count()) + ")" + (p.noise > 0.0 ? ", " : "") + text;
+}
+
+/// The pictures to be made: all that must be right before work begins.
 struct Job {
-  Scene scene;
+  const RenderOptions& options;
+  bool animated;
+  Frames frames;
+  SceneInTime timed;
   std::optional<Geometry> geometry;
   RenderSettings settings;
+  InstructionSet common;
+
+  /// Throws Fault.
+  Job(const RenderOptions& o, bool chief, InstructionSet common_set)
+      : options(o), animated(!o.frames.empty()), common(common_set) {
+    std::optional<Film> film;
+    if (!options.size.empty()) film = film_size(options.size);
+    if (animated) frames = frames_from(options.frames);
+    std::set<std::filesystem::path> seen;
+    for (int frame = frames.first; frame <= frames.last && chief; ++frame)
+      check_outputs(outputs_of(options.outputs, number(frame)), seen);
+    SceneArguments arguments = options.scene;
+    arguments.frame = number(frames.first);
+    timed = scene_of(arguments, options.quiet || !chief);
+    // A medium that is none in some picture is better known now than after a night.
+    for (int frame = frames.first; frame <= frames.last && animated; ++frame)
+      medium_at(timed.media, time_of(scene(), frame));
+    if (film) timed.scene.film = *film;
+    check_memory(scene().film);
+    geometry.emplace(scene());
+    settings.integrator = options.integrator.empty() ? scene().integrator.name : options.integrator;
+    settings.spp = options.spp > 0 ? options.spp : scene().integrator.spp;
+    settings.max_depth = scene().integrator.max_depth;
+    settings.threads = options.threads;
+    settings.seed = options.seed;
+    apply(options.long_work, options.spp > 0, settings);
+  }
+  Job(const Job&) = delete;
+  Job& operator=(const Job&) = delete;
+
+  const Scene& scene() const { return timed.scene; }
+  /// The frame, where there are several.
+  std::optional<int> number(int frame) const { return animated ? std::optional(frame) : std::nullopt; }
+};
+
+/// One of a job's pictures, under way.
+struct Picture {
   CheckpointSubject subject;
   std::optional<FilmKeeper> keeper;  // the chief's
   SampleFilm samples{1, 1};
 
   /// Throws Fault.
-  Job(const RenderOptions& options, bool chief, InstructionSet common) {
-    std::optional<Film> film;
-    if (!options.size.empty()) film = film_size(options.size);
-    if (chief) check_outputs(options.outputs);
-    scene = scene_of(options.scene, options.quiet || !chief);
-    if (film) scene.film = *film;
-    check_memory(scene.film);
-    geometry.emplace(scene);
-    settings.integrator = options.integrator.empty() ? scene.integrator.name : options.integrator;
-    settings.spp = options.spp > 0 ? options.spp : scene.integrator.spp;
-    settings.max_depth = scene.integrator.max_depth;
-    settings.threads = options.threads;
-    settings.seed = options.seed;
-    apply(options.long_work, options.spp > 0, settings);
-    subject = subject_of(scene, settings, common);
+  Picture(Job& job, int frame, bool chief) {
+    if (job.animated) set_time(job.timed, time_of(job.scene(), frame));
+    subject = subject_of(job.scene(), job.settings, job.common);
     if (!chief) return;
-    keeper.emplace(options.long_work, subject, [&](const std::filesystem::path& file, const SampleFilm& now) {
-      write_png(file, developed(now, settings, false), looks_of(options));
+    LongWork files = job.options.long_work;
+    if (job.animated && !files.checkpoint.empty()) files.checkpoint = numbered(files.checkpoint, frame);
+    keeper.emplace(files, subject, [&job](const std::filesystem::path& file, const SampleFilm& now) {
+      write_png(file, developed(now, job.scene(), job.settings, false), looks_of(job.options));
     });
     samples = keeper->film();
   }
-  Job(const Job&) = delete;
-  Job& operator=(const Job&) = delete;
+  Picture(const Picture&) = delete;
+  Picture& operator=(const Picture&) = delete;
 };
 
-/// True where the picture came to its end.
-bool carry_out(Job& job, const RenderOptions& options, Company& company) {
-  heed_signals();
-  ProgressBar bar(options.quiet);
+/// What is shown of all pictures, from the first on.
+struct Shown {
+  explicit Shown(bool quiet) : bar(quiet) {}
+  ProgressBar bar;
+  double seconds_before = 0.0;
+};
+
+/// The chief's part: renders a picture and writes it. True where it came to its end.
+bool make_picture(const Job& job, Picture& picture, int frame, Company& company, Shown& shown) {
+  double seconds = 0.0;
   RenderHooks hooks;
   hooks.report = [&](const RenderProgress& p) {
-    char detail[64] = "";
-    if (p.noise > 0.0) std::snprintf(detail, sizeof detail, "%d samples, noise %.1f %%", p.spp, 100.0 * p.noise);
-    bar.show(p.fraction, p.seconds, detail);
+    seconds = p.seconds;
+    shown.bar.show((frame - job.frames.first + p.fraction) / job.frames.count(), shown.seconds_before + seconds,
+                   progress_text(p, job.frames, job.number(frame)));
   };
-  hooks.wants_film = [&] { return job.keeper->is_due(); };
-  hooks.save = [&](const SampleFilm& now) { job.keeper->save(now); };
+  hooks.wants_film = [&] { return picture.keeper->is_due(); };
+  hooks.save = [&](const SampleFilm& now) { picture.keeper->save(now); };
   hooks.stop = &interrupted;
   hooks.helpers = company.helpers();
-  const bool ended = render(job.scene, *job.geometry, job.settings, job.samples, hooks);
+  const bool ended = render(job.scene(), *job.geometry, job.settings, picture.samples, hooks);
   company.dismiss();
+  shown.seconds_before += seconds;
+  // Both, even if one cannot be written.
+  std::exception_ptr failure;
+  try {
+    picture.keeper->finish(picture.samples);
+  } catch (...) {
+    failure = std::current_exception();
+  }
+  write_outputs(job.options, outputs_of(job.options.outputs, job.number(frame)),
+                developed(picture.samples, job.scene(), job.settings, ended));
+  if (failure) std::rethrow_exception(failure);
   return ended;
 }
 
@@ -182,26 +239,30 @@ void render_scene(const RenderOptions& options) {
   std::optional<Job> job;
   const InstructionSet common = company.common_instruction_set(options.quiet);
   company.together([&] { job.emplace(options, company.chief(), common); });
-  company.agree_on(written(job->subject).dump(), "picture");
-  if (!company.chief()) {
-    company.serve(job->scene, *job->geometry, job->settings);
-    return company.leave();
+  std::optional<Shown> shown;
+  bool ended = true;
+  int frame = job->frames.first;
+  for (;; ++frame) {
+    std::optional<Picture> picture;
+    company.together([&] { picture.emplace(*job, frame, company.chief()); });
+    company.agree_on(written(picture->subject).dump(), "picture");
+    if (company.chief()) {
+      heed_signals();
+      if (!shown) shown.emplace(options.quiet);
+      ended = make_picture(*job, *picture, frame, company, *shown);
+    } else {
+      company.serve(job->scene(), *job->geometry, job->settings);
+    }
+    if (!company.all_go_on(ended) || frame == job->frames.last) break;
   }
-  const bool ended = carry_out(*job, options, company);
-  // Both, even if one cannot be written.
-  std::exception_ptr failure;
-  try {
-    job->keeper->finish(job->samples);
-  } catch (...) {
-    failure = std::current_exception();
-  }
-  write_outputs(options, developed(job->samples, job->settings, ended));
-  if (failure) std::rethrow_exception(failure);
   company.leave();
-  if (!ended) {
-    if (!options.quiet) std::fprintf(stderr, "stopped; the picture has the samples taken until then\n");
-    throw CLI::RuntimeError(128 + stopping_signal);
+  if (ended || !company.chief()) return;
+  shown.reset();
+  if (!options.quiet) {
+    const std::string which = job->animated ? " at frame " + std::to_string(frame) + "; its" : "; the";
+    std::fprintf(stderr, "stopped%s picture has the samples taken until then\n", which.c_str());
   }
+  throw CLI::RuntimeError(128 + stopping_signal);
 }
 
 }  // namespace
@@ -229,10 +290,15 @@ void add_render(CLI::App& app) {
   add_threads(*command, options->threads);
   add_seed(*command, options->seed);
   add_long_work(*command, options->long_work);
+  command
+      ->add_option("--frames", options->frames,
+                   "Pictures of an animation, numbered: fog.exr as fog.0012.exr; picture n is that of time n / fps")
+      ->type_name("A-B")
+      ->excludes("--time");
   command->add_flag("--quiet", options->quiet, "No progress, no warnings");
   command->footer(
       "A scene is a .scene.json, or a .glb or .gltf of any modelling program. Ctrl-C stops early and writes the "
-      "picture as it is (exit code 130).\n\n"
+      "picture as it is (exit code 130); of several, the one it is at.\n\n"
       "Example: tyndall render examples/street.scene.json --medium examples/media/street_w100.medium.json -o "
       "street.png");
   command->callback([options] { render_scene(*options); });

@@ -3,11 +3,9 @@
 #include <filesystem>
 #include <iostream>
 
-#include "tyndall/cli/arguments.h"
 #include "tyndall/document/law_text.h"
 #include "tyndall/document/preset.h"
 #include "tyndall/document/spelling.h"
-#include "tyndall/scene/scene_file.h"
 
 namespace tyndall {
 
@@ -31,17 +29,18 @@ void refuse_words(const std::string& name) {
 void add_scene_arguments(CLI::App& command, SceneArguments& arguments) {
   command.add_option("SCENE", arguments.scene, "A .scene.json, .glb or .gltf file")->required();
   command.add_option("--medium", arguments.medium, "The air: a medium file or preset, instead of the scene's own");
-  add_allow_path(command, arguments.allow_path);
+  add_medium_arguments(command, arguments.media);
 }
 
-Scene scene_of(const SceneArguments& arguments, bool quiet) {
-  if (arguments.medium && arguments.medium->empty()) {
+SceneInTime scene_of(const SceneArguments& arguments, bool quiet) {
+  if (arguments.medium && arguments.medium->empty())
     throw Fault("--medium", "an empty name", "the name of a file or preset");
-  }
   refuse_words(arguments.scene);
-  Scene scene = read_scene(arguments.scene, {arguments.medium.value_or(""), arguments.allow_path});
+  const MediumArguments& media = arguments.media;
+  SceneInTime scene = read_scene_in_time(
+      arguments.scene, {arguments.medium.value_or(""), media.allow_path, media.time, arguments.frame});
   if (!quiet) {
-    for (const std::string& warning : scene.warnings) std::cerr << "warning: " << warning << '\n';
+    for (const std::string& warning : scene.scene.warnings) std::cerr << "warning: " << warning << '\n';
   }
   return scene;
 }

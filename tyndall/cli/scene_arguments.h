@@ -4,20 +4,22 @@
 #include <optional>
 #include <string>
 
-#include "tyndall/scene/scene.h"
+#include "tyndall/cli/medium_arguments.h"
+#include "tyndall/scene/scene_file.h"
 
 namespace tyndall {
 
-/// SCENE, --medium and --allow-path.
+/// SCENE, --medium, --time and --allow-path.
 struct SceneArguments {
   std::string scene;
   std::optional<std::string> medium;
-  bool allow_path = false;
+  MediumArguments media;
+  std::optional<int> frame = std::nullopt;  // instead of --time
 };
 
 void add_scene_arguments(CLI::App& command, SceneArguments& arguments);
 
 /// The scene that they name; its warnings go to stderr unless `quiet`. Throws Fault.
-Scene scene_of(const SceneArguments& arguments, bool quiet = false);
+SceneInTime scene_of(const SceneArguments& arguments, bool quiet = false);
 
 }  // namespace tyndall

@@ -1,15 +1,16 @@
 // tyndall show: a medium in numbers.
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <string>
 
 #include "tyndall/cli/arguments.h"
 #include "tyndall/cli/commands.h"
+#include "tyndall/cli/medium_arguments.h"
 #include "tyndall/cli/table.h"
 #include "tyndall/cli/warnings.h"
 #include "tyndall/document/medium_file.h"
 #include "tyndall/document/medium_summary.h"
-#include "tyndall/document/named_medium.h"
 #include "tyndall/document/spelling.h"
 
 namespace tyndall {
@@ -72,8 +73,37 @@ void print_densities(const Spectrum& extinction, const MediumFile& file) {
   std::cout << '\n' << table.text();
 }
 
-void print_table(const MediumSummary& medium, const MediumFile& file) {
-  std::cout << (medium.name.empty() ? "(no name)" : printable(medium.name)) << "\n\n";
+std::string seconds_text(double time) { return value_text(time) + " s"; }
+
+/// When a medium with keyframes is shown, and where that is among its keys.
+std::string time_text(const Keyframes& keys, double time) {
+  const auto [from, to, share] = interval_at(keys, time);
+  const BlendHow how = keys[to].transition;
+  std::string text = "At " + seconds_text(time);
+  if (share > 0.0) {
+    text += ", on the way from the key at " + seconds_text(keys[from].time) + " to that at " +
+            seconds_text(keys[to].time) + " (" + std::string(words_of(how)[static_cast<std::size_t>(how)]) + ")";
+  } else if (time == keys[from].time) {
+    text += ", a key";
+  } else {
+    text += time < keys[from].time ? ", as until the first key" : ", as since the last key";
+  }
+  constexpr std::size_t most_listed = 12;
+  text += keys.size() == 1 ? ". Key at " : ". Keys at ";
+  for (std::size_t i = 0; i < std::min(keys.size(), most_listed); ++i) {
+    text += (i > 0 ? ", " : "") + seconds_text(keys[i].time);
+  }
+  if (keys.size() > most_listed) {
+    text += ", ... " + seconds_text(keys.back().time) + " (" + std::to_string(keys.size()) + " keys)";
+  }
+  return text + '.';
+}
+
+void print_table(const MediumSummary& medium, const MediumInTime& from) {
+  const MediumFile& file = from.now;
+  std::cout << (medium.name.empty() ? "(no name)" : printable(medium.name)) << '\n';
+  if (medium.time) std::cout << time_text(*from.stated.keyframes, *medium.time) << '\n';
+  std::cout << '\n';
   Table table;
   const auto row = [&](const std::string& name, const ChannelList& values, std::string (*text_of)(double)) {
     add_row(table, name, Spectrum{values}, text_of);
@@ -109,22 +139,28 @@ void print_table(const MediumSummary& medium, const MediumFile& file) {
 
 struct ShowOptions {
   std::string medium;
-  bool json = false, allow_path = false;
+  bool json = false;
+  MediumArguments media;
 };
 
 void show(const ShowOptions& options) {
-  const MediumFile file = read_named_medium(options.medium, options.allow_path).file;
+  const MediumInTime medium = medium_of(options.medium, options.media);
+  const auto& [stated, file] = medium;
   MediumSummary summary = summary_of(compile(file, options.medium));
   const MediumDials dials = dials_in_metres(file);
   summary.name = file.name;
   summary.exaggeration = file.background ? file.background->exaggeration : 1.0;
   summary.sources = statements_on(dials);
-  summary.warnings = remarks_on(dials);
-  warn(file, options.medium);
+  summary.warnings = remarks_on(stated);
+  if (stated.keyframes) {
+    summary.time = options.media.time;
+    for (const Keyframe& key : *stated.keyframes) summary.keyframes.push_back(key.time);
+  }
+  warn(stated, options.medium);
   if (options.json) {
     std::cout << pretty(written(summary));
   } else {
-    print_table(summary, file);
+    print_table(summary, medium);
   }
 }
 
@@ -135,7 +171,7 @@ void add_show(CLI::App& app) {
   CLI::App* command = app.add_subcommand("show", "Print a medium in numbers: how far one sees, what it is made of");
   command->add_option("MEDIUM", options->medium, "Medium file (*.medium.json), or the name of a preset")->required();
   command->add_flag("--json", options->json, "Print one JSON object, in SI units; infinite or undefined is null");
-  add_allow_path(*command, options->allow_path);
+  add_medium_arguments(*command, options->media);
   command->footer(
       "Everything is stated at the origin of the scene. Visibility is the distance at which a black\n"
       "object against the horizon keeps 5 % (or 2 %) of its contrast.\n\n"

@@ -7,10 +7,10 @@
 
 #include "tyndall/cli/arguments.h"
 #include "tyndall/cli/commands.h"
+#include "tyndall/cli/medium_arguments.h"
 #include "tyndall/cli/number_list.h"
 #include "tyndall/cli/table.h"
 #include "tyndall/cli/warnings.h"
-#include "tyndall/document/named_medium.h"
 #include "tyndall/document/spelling.h"
 
 namespace tyndall {
@@ -22,7 +22,8 @@ struct SlabOptions {
   std::uint32_t spp = 1000000;
   std::uint64_t seed = 1;
   int threads = 0;
-  bool json = false, allow_path = false;
+  bool json = false;
+  MediumArguments media;
 };
 
 double thickness_of(const std::string& text) {
@@ -80,8 +81,8 @@ void slab(const SlabOptions& options) {
   SlabRequest request;
   request.thickness = thickness_of(options.thickness);
   request.mu = numbers_from(options.mu_text, "--mu", 1e-6, 1.0);
-  const MediumFile file = read_named_medium(options.medium, options.allow_path).file;
-  request.medium = compile(file, options.medium);
+  const auto [stated, now] = medium_of(options.medium, options.media);
+  request.medium = compile(now, options.medium);
   request.diffuse = options.illumination == "diffuse";
   request.mu0 = options.mu0;
   request.ground = options.ground;
@@ -92,7 +93,7 @@ void slab(const SlabOptions& options) {
     const bool medium = objection->field == "medium";
     throw Fault(medium ? place(options.medium) : "--" + objection->field, objection->found, objection->expected);
   }
-  warn(file, options.medium);
+  warn(stated, options.medium);
   const SlabResult result = solve_slab(request);
   options.json ? print_json(request, result) : print_table(request, result);
 }
@@ -118,7 +119,7 @@ void add_slab(CLI::App& app) {
       ->check(whole_within(1, 4000000000u));
   add_seed(*command, options->seed);
   add_threads(*command, options->threads);
-  add_allow_path(*command, options->allow_path);
+  add_medium_arguments(*command, options->media);
   command->add_flag("--json", options->json, "Print one JSON object");
   command->footer(
       "A beam enters the top of a flat layer, black outside; all orders of scattering. Numbers are shares of the "

@@ -1,6 +1,7 @@
 #pragma once
 // A medium in numbers at a point: what `show` prints.
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -40,9 +41,11 @@ struct MediumSummary {
   ChannelList albedo{}, mean_free_path{};                     // 1, [m]
   ChannelList visibility_5{}, visibility_2{}, mean_cosine{};  // [m], [m], 1
   std::vector<SpeciesSummary> species;
-  std::vector<Density> densities;    // the extinction in every form; lengths in metres
-  std::vector<std::string> sources;  // of numbers that the medium uses without stating them
-  std::vector<Remark> warnings;      // what is outside what physics allows
+  std::vector<Density> densities;             // the extinction in every form; lengths in metres
+  std::vector<std::string> sources;           // of numbers that the medium uses without stating them
+  std::vector<Remark> warnings;               // what is outside what physics allows
+  std::optional<double> time = std::nullopt;  // [s] of what is shown, where it changes
+  std::vector<double> keyframes;              // times [s]
   static constexpr auto fields() {
     return std::tuple{
         Field{"name", &MediumSummary::name, any_number, "", "The medium's name."},
@@ -60,7 +63,9 @@ struct MediumSummary {
               true},
         Field{"sources", &MediumSummary::sources, any_number, "", "Where numbers come from.", Scaling::none, true},
         Field{"warnings", &MediumSummary::warnings, any_number, "", "What is outside what physics allows.",
-              Scaling::none, true}};
+              Scaling::none, true},
+        Field{"time", &MediumSummary::time, any_number, "s", "When the medium is so, where it has keyframes."},
+        Field{"keyframes", &MediumSummary::keyframes, any_number, "s", "Times of its keyframes."}};
   }
 };
 

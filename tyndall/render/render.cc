@@ -6,6 +6,7 @@
 #include <memory>
 #include <thread>
 
+#include "tyndall/document/writing.h"
 #include "tyndall/render/film.h"
 #include "tyndall/render/parallel.h"
 #include "tyndall/render/sampler.h"
@@ -162,7 +163,7 @@ bool render(const Scene& scene, const Geometry& geometry, const RenderSettings& 
   return Rendering(settings, film, hooks, *sampler).passes();
 }
 
-Image developed(const SampleFilm& film, const RenderSettings& settings, bool ended) {
+Image developed(const SampleFilm& film, const Scene& scene, const RenderSettings& settings, bool ended) {
   Image image = film.develop();
   const auto [least, most] = film.samples_taken();
   // single does all of a pixel at once, and counts it as one.
@@ -171,6 +172,7 @@ Image developed(const SampleFilm& film, const RenderSettings& settings, bool end
                  {"tyndall.spp", std::to_string(settings.spp)},
                  {"tyndall.spp_taken", range_text(least * each, most * each)},
                  {"tyndall.seed", std::to_string(settings.seed)},
+                 {"tyndall.time", number_text(scene.time)},
                  {"tyndall.max_depth", settings.max_depth == 0 ? "none" : std::to_string(settings.max_depth)}};
   if (const std::string text = quadrature_text(settings); !text.empty())
     image.notes.emplace_back("tyndall.quadrature", text);
@@ -182,7 +184,7 @@ Image render(const Scene& scene, const Geometry& geometry, const RenderSettings&
              const std::function<void(const RenderProgress&)>& report, const std::atomic<bool>* stop) {
   SampleFilm film(scene.film.width, scene.film.height);
   const bool ended = render(scene, geometry, settings, film, {report, {}, {}, stop, nullptr});
-  return developed(film, settings, ended);
+  return developed(film, scene, settings, ended);
 }
 
 }  // namespace tyndall

@@ -66,7 +66,7 @@ bool render(const Scene& scene, const Geometry& geometry, const RenderSettings& 
             const RenderHooks& hooks);
 
 /// The film as a picture whose notes say how it was made; ended: render() has said so.
-Image developed(const SampleFilm& film, const RenderSettings& settings, bool ended);
+Image developed(const SampleFilm& film, const Scene& scene, const RenderSettings& settings, bool ended);
 
 /// Both, from nothing. When `stop` becomes true the picture is returned as it is.
 Image render(const Scene& scene, const Geometry& geometry, const RenderSettings& settings,

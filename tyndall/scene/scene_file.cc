@@ -100,9 +100,11 @@ void note_remarks(Scene& scene, const MediumFile& medium, const std::string& fil
 
 /// Light for a scene that has none: all around it, or where the medium lets nothing through, a lamp beside the camera
 /// that is as bright on what the camera looks at.
-void stand_in_for_light(Scene& scene, const fs::path& file) {
+void stand_in_for_light(Scene& scene, const SceneMedia& media, const fs::path& file) {
   std::string what = "an environment of radiance 1 W/(m^2 sr)";
-  if (is_endless(scene.medium)) {
+  const auto times = key_times(media);
+  if (is_endless(scene.medium) ||
+      std::ranges::any_of(times, [&](double time) { return is_endless(medium_at(media, time)); })) {
     const Camera& camera = scene.camera;
     const Vector forward = normalized(camera.look_at - camera.position);
     const Vector right = normalized(cross(forward, camera.up)), up = cross(right, forward);
@@ -128,18 +130,20 @@ void complete_view(Scene& scene, const std::optional<GltfCamera>& found, bool ha
   if (!has_camera) scene.camera = found ? found->camera : framing(scene);
 }
 
-Scene scene_of_gltf(const fs::path& file, const SceneOptions& options) {
-  Scene scene;
+SceneInTime scene_of_gltf(const fs::path& file, const SceneOptions& options) {
+  SceneInTime out;
+  Scene& scene = out.scene;
   const auto camera = add_gltf(scene, file, 1.0, options.allow_path);
   complete_view(scene, camera, false, false);
   if (!options.medium.empty()) {
     const auto [medium, name] = read_named_medium(options.medium.string(), options.allow_path);
     note_remarks(scene, medium, name, "");
-    scene.medium = compile(medium, name);
+    out.media.push_back({medium, name, {}});
   }
-  if (!has_light_inside(scene) && !has_light_outside(scene)) stand_in_for_light(scene, file);
+  set_time(out, options.frame ? time_of(scene, *options.frame) : options.time);
+  if (!has_light_inside(scene) && !has_light_outside(scene)) stand_in_for_light(scene, out.media, file);
   note_darkness(scene, file);
-  return scene;
+  return out;
 }
 
 /// Turns a description into a scene. `root` is the description's JSON, for the places of faults.
@@ -148,7 +152,7 @@ class Assembly {
   Assembly(const JsonCursor& root, const fs::path& file, const SceneOptions& options)
       : root_(root), file_(file), options_(options) {}
 
-  Scene run(const SceneDescription& description) {
+  SceneInTime run(const SceneDescription& description) {
     unit_ = description.meters_per_unit;
     scene_.meters_per_unit = unit_;
     scene_.fps = description.fps;
@@ -179,8 +183,9 @@ class Assembly {
       if (auto objection = objection_to(scene_.camera)) throw root_.at("camera").fault_below(*objection);
     }
     complete_view(scene_, camera, description.camera.has_value(), description.film.has_value());
+    set_time(whole_, options_.frame ? time_of(scene_, *options_.frame) : options_.time);
     note_darkness(scene_, file_);
-    return std::move(scene_);
+    return std::move(whole_);
   }
 
  private:
@@ -217,10 +222,7 @@ class Assembly {
     }
     if (!channels_) channels_ = channels;
     note_remarks(scene_, file, name, pointer);
-    for (Species& species : compile(file, name).species) {
-      species.profiles.insert(species.profiles.end(), profiles.begin(), profiles.end());
-      scene_.medium.species.push_back(std::move(species));
-    }
+    whole_.media.push_back({file, pointer.empty() ? name : place(name, 0, pointer), profiles});
   }
 
   std::optional<GltfCamera> add_geometry(const GeometryReference& reference, const JsonCursor& at) {
@@ -260,7 +262,8 @@ class Assembly {
   const fs::path& file_;
   const SceneOptions& options_;
   double unit_ = 1.0;
-  Scene scene_;
+  SceneInTime whole_;
+  Scene& scene_ = whole_.scene;
   std::optional<ChannelTag> channels_;
 };
 
@@ -274,7 +277,14 @@ void complete_medium(Json& owner, const Json& meters_per_unit) {
 
 }  // namespace
 
-Scene read_scene(const fs::path& file, const SceneOptions& options) {
+void set_time(SceneInTime& scene, double time) {
+  scene.scene.time = time;
+  scene.scene.medium = medium_at(scene.media, time);
+}
+
+Scene read_scene(const fs::path& file, const SceneOptions& options) { return read_scene_in_time(file, options).scene; }
+
+SceneInTime read_scene_in_time(const fs::path& file, const SceneOptions& options) {
   if (is_gltf(file)) return scene_of_gltf(file, options);
   refuse_other_kinds(file, FileKind::scene);
   JsonText json = read_json(file, options.allow_path);

@@ -178,6 +178,47 @@ TEST(SceneFile, MediaMayBePresetsAndVariants) {
   EXPECT_NE(files.fault_of(scene).find("did you mean \"mist\"?"), std::string::npos) << files.fault_of(scene);
 }
 
+TEST(SceneFile, MediaWithKeyframesAreTakenAtATime) {
+  Files files;
+  const char* const keys = R"({"format": "tyndall-medium/1", "meters_per_unit": 0.01, "keyframes": [
+    {"time": 0, "conditions": {"model": "simple", "w": 1, "thickness": 1e-4}},
+    {"time": 10, "conditions": {"model": "simple", "w": 1, "thickness": 5e-4}}]})";
+  files.folder.put("air/fog.medium.json", std::string(keys));
+  json scene = whole();
+  scene["volumes"][0]["medium"] = json::parse(keys);
+  const auto read = [&](const SceneOptions& options) {
+    return read_scene_in_time(files.folder.put("test.scene.json", scene.dump(1)), options);
+  };
+  const auto total = [](const Scene& s) { return s.medium.species.at(0).scattering[1]; };
+  EXPECT_NEAR(total(read({}).scene), 0.01, 1e-15);
+  SceneInTime timed = read({"", false, 5.0});
+  EXPECT_EQ(timed.scene.time, 5.0);
+  ASSERT_EQ(timed.scene.medium.species.size(), 3U);
+  for (const Species& s : timed.scene.medium.species) EXPECT_NEAR(s.scattering[1], 0.03, 1e-15);
+  EXPECT_EQ(timed.scene.medium.species[1].profiles.size(), 1U);
+  EXPECT_EQ(read({"", false, 0.0, 125}).scene.time, 5.0);  // 25 pictures a second
+  set_time(timed, 25.0);
+  EXPECT_EQ(timed.scene.time, 25.0);
+  ASSERT_EQ(timed.scene.medium.species.size(), 3U);
+  EXPECT_NEAR(total(timed.scene), 0.05, 1e-15);
+  EXPECT_EQ(timed.scene.medium.species[2].profiles.size(), 1U);
+}
+
+TEST(SceneFile, LightThatStandsInDoesSoAtAllTimes) {
+  // Clear at first, endless fog later: an environment would be dark then.
+  Files files;
+  files.folder.put("clearing.medium.json", R"({"format": "tyndall-medium/1", "keyframes": [
+    {"time": 0, "conditions": {"model": "simple", "w": 1, "thickness": 0}},
+    {"time": 10, "conditions": {"model": "simple", "w": 1, "thickness": 0.1}}]})");
+  Glb dark;
+  dark.node({{"mesh", dark.triangle_mesh()}});
+  const Scene scene =
+      read_scene(files.folder.put("dark.glb", dark.bytes()), {files.folder.path / "clearing.medium.json"});
+  EXPECT_TRUE(scene.medium.species.empty());
+  EXPECT_FALSE(scene.environment);
+  EXPECT_EQ(scene.points.size(), 1U);
+}
+
 TEST(SceneFile, GlbAloneIsAScene) {
   const Files files;
   const Scene s = read_scene(files.folder.path / "street.glb");
