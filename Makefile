@@ -6,34 +6,41 @@ CMAKE_ARGS ?=
 export TYNDALL_INSTALL
 
 .DEFAULT_GOAL := help
-.PHONY: help install configure build test demo bench soak format clean
+.PHONY: help install build test demo bench soak format clean
 
 help: ## This list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-9s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
-install: ## Install the Debian packages that are missing (root or sudo)
+install: ## Install the Debian packages that are missing (root or sudo), for all of the below
 	@scripts/install.sh
 
-configure: install
-	@cmake --preset release $(CMAKE_ARGS)
+# The program alone: a first configure leaves the tests off, which need packages of their own; a later one keeps them.
+first = $(if $(wildcard build/CMakeCache.txt),,-DTYNDALL_BUILD_TESTS=OFF)
+program = cmake --preset release $(first) $(CMAKE_ARGS) && cmake --build --preset release -j $(JOBS) --target tyndall_cli
+with_tests = scripts/install.sh demo build test && cmake --preset release -DTYNDALL_BUILD_TESTS=ON $(CMAKE_ARGS) && \
+  cmake --build --preset release -j $(JOBS)
 
-build: configure ## Build the program: build/tyndall
-	@cmake --build --preset release -j $(JOBS) --target tyndall_cli
+build: ## Build the program: build/tyndall
+	@scripts/install.sh demo build
+	@$(program)
 
-test: configure ## Build everything and run the tests
-	@cmake --build --preset release -j $(JOBS)
+test: ## Build everything and run the tests
+	@$(with_tests)
 	@scripts/run_tests.sh --preset release -j $(JOBS)
 
-demo: build ## Render the demo pictures and say where they are
+demo: ## Render the demo pictures and say where they are
+	@scripts/install.sh demo
+	@$(program)
 	@scripts/demo.sh build/tyndall build/demo
 
-bench: install ## Build and run the benchmarks
+bench: ## Build and run the benchmarks
+	@scripts/install.sh demo build bench
 	@cmake --preset bench $(CMAKE_ARGS)
 	@cmake --build --preset bench -j $(JOBS)
 	@scripts/bench.sh build-bench
 
-soak: configure ## The long tests (hours), and what they tried (docs/soak.md)
-	@cmake --build --preset release -j $(JOBS)
+soak: ## The long tests (hours), and what they tried (docs/soak.md)
+	@$(with_tests)
 	@scripts/run_tests.sh --preset soak -j $(JOBS) --test-output-size-passed 100000 --output-junit soak.xml; \
 	  status=$$?; python3 scripts/soak_page.py build/soak.xml; exit $$status
 

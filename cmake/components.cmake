@@ -1,11 +1,12 @@
 # What Tyndall uses of other people's work, and the targets that folders may LINK:
 #   embree  tinygltf::tinygltf  OpenEXR::OpenEXR  PNG::PNG  stb::stb  nlohmann_json::nlohmann_json  CLI11::CLI11
-#   TBB::tbb  xsimd  cairo::cairo  Threads::Threads        and for tests  GTest::gmock  rapidcheck  egl::gles
+#   xsimd  cairo::cairo  Threads::Threads        and for tests  GTest::gmock  rapidcheck  egl::gles
 #   python::jsonschema (defines TYNDALL_PYTHON)  webassembly (TYNDALL_WASM_CLANG, TYNDALL_NODE)
 #
 # TYNDALL_WITH_<PART> is AUTO (used when found), ON (an error when not found; TYNDALL_REQUIRE_ALL=ON makes every AUTO
 # an ON) or OFF. Whatever links a part that is not there is not built, and the end of configure says so.
-# TYNDALL_HAS_<PART>=0|1 is defined for every source.
+# TYNDALL_HAS_<PART> is 0 or 1 here; a source that asks is given it by its folder, so that a part found later does not
+# build everything anew.
 include_guard(GLOBAL)
 
 function(tyndall_component part package what)
@@ -22,14 +23,13 @@ function(tyndall_component part package what)
     set(has 0)
     message(STATUS "${what}: off (TYNDALL_WITH_${part}=OFF)")
   elseif(NOT has AND TYNDALL_WITH_${part} STREQUAL "AUTO" AND NOT TYNDALL_REQUIRE_ALL)
-    message(WARNING "${what}: off, because ${package} was not found. Debian: scripts/install.sh installs it.")
+    message(NOTICE "${what}: off, because ${package} was not found. Debian: scripts/install.sh installs it.")
   elseif(NOT has)
     message(FATAL_ERROR "${what}: ${package} was not found. Debian: scripts/install.sh installs it.")
   endif()
   if(NOT has)
     set_property(GLOBAL APPEND PROPERTY TYNDALL_MISSING ${arg_TARGETS})
   endif()
-  target_compile_definitions(tyndall_flags INTERFACE TYNDALL_HAS_${part}=${has})
   set(TYNDALL_HAS_${part} ${has} CACHE INTERNAL "")
 endfunction()
 
@@ -59,7 +59,6 @@ endfunction()
 set(THREADS_PREFER_PTHREAD_FLAG ON)
 find_package(Threads REQUIRED)
 find_package(embree 3.13 CONFIG QUIET)
-find_package(TBB CONFIG QUIET)
 # Imath's package file remarks at length on a Python part that Debian packages apart.
 set(level "${CMAKE_MESSAGE_LOG_LEVEL}")
 set(CMAKE_MESSAGE_LOG_LEVEL WARNING)
@@ -90,7 +89,6 @@ endif()
 set(MPI_CXX_SKIP_MPICXX TRUE)
 find_package(MPI QUIET COMPONENTS CXX)
 tyndall_component(EMBREE libembree-dev "Surfaces (Embree)" TARGETS embree)
-tyndall_component(TBB libtbb-dev "Thread pool (TBB)" TARGETS TBB::tbb)
 tyndall_component(GLTF libtinygltf-dev "glTF scenes (tinygltf)" TARGETS tinygltf::tinygltf)
 tyndall_component(OPENEXR libopenexr-dev "EXR pictures (OpenEXR)" TARGETS OpenEXR::OpenEXR)
 tyndall_component(PNG libpng-dev "PNG pictures (libpng)" TARGETS PNG::PNG)

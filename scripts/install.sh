@@ -1,6 +1,7 @@
 #!/bin/sh
-# Installs what scripts/packages.txt names and this machine lacks, as root or through sudo. Quick when nothing is
-# missing. TYNDALL_INSTALL=no only says what is missing.
+# install.sh [PART..]: installs what scripts/packages.txt names for these parts (demo, build, test, bench; default: all)
+# and this machine lacks, as root or through sudo. Quick when nothing is missing. TYNDALL_INSTALL=no only says what is
+# missing.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 
@@ -9,7 +10,14 @@ if ! command -v dpkg-query >/dev/null; then
   exit 0
 fi
 
-wanted=$(sed 's/#.*//' "$here/packages.txt")
+[ $# -gt 0 ] || set -- demo build test bench
+for part in "$@"; do
+  grep -qxF "[$part]" "$here/packages.txt" || { echo "install: no part $part in scripts/packages.txt" >&2; exit 2; }
+done
+wanted=$(awk -v parts=" $* " '
+  { sub(/#.*/, "") }
+  /^\[/ { gsub(/[][ \t]/, ""); wanted = index(parts, " " $0 " "); next }
+  wanted && NF' "$here/packages.txt")
 # shellcheck disable=SC2086  # a list of words
 present=$(dpkg-query -W -f '${Package} ${db:Status-Status}\n' $wanted 2>/dev/null | sed -n 's/ installed$//p' || true)
 missing=""

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""soak_page.py RUN.xml...: prints what runs of the long tests came to; with --write also writes docs/soak.md.
+"""Prints what runs of the long tests came to; with --write also writes docs/soak.md.
 
     make soak                                                 # runs them all and prints this at the end
     python3 scripts/soak_page.py --write build/soak.xml
@@ -7,6 +7,7 @@
 RUN.xml is what `ctest --label-regex soak --output-junit RUN.xml` leaves. Of several runs the last word on each test counts, so a
 failure that was mended can be run again by itself. Exit code 1 if a test failed or none ran. Python's standard library only.
 """
+import argparse
 import os
 import re
 import sys
@@ -66,11 +67,12 @@ def page(runs):
 
 
 def main():
-    runs = [a for a in sys.argv[1:] if a != "--write"]
-    if not runs:
-        sys.exit(__doc__)
-    lines, summary, days, good = page(runs)
-    if "--write" in sys.argv:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("runs", metavar="RUN.xml", nargs="+", help="what ctest left")
+    parser.add_argument("--write", action="store_true", help="write docs/soak.md too")
+    arguments = parser.parse_args()
+    lines, summary, days, good = page(arguments.runs)
+    if arguments.write:
         with open(PAGE, "w", encoding="utf-8") as file:
             file.write("\n".join([
                 "# The long tests", "",

@@ -103,6 +103,7 @@ TEST_F(Arguments, NumbersThatCannotBeAreQuotedWithWhatCan) {
   refuse_all(render, "--exposure", {"x", "nan", "inf", "61"}, "a number from -60 to 60");
   refuse_all(render, "--tone", {"film"}, "one of filmic, none");
   refuse_all(render, "--integrator", {"sinlge"}, "one of path, single (did you mean \"single\"?)");
+  refuse_all("blend haze haze -o x.medium.json", "--at", {"-0.1", "1.1", "x", "nan", "1e999"}, "a number from 0 to 1");
   refuse_all("phase rayleigh", "--at", {"2", "x", "nan", "1,", "1,,0"}, "numbers from -1 to 1, with commas between");
   refuse_all("phase rayleigh", "--sample", {"-0.1", "1.1", "nan"}, "numbers from 0 to 1, with commas between");
   refuse_all("phase rayleigh", "--moments", {"-1", "x", "nan", "1.5", "10001"}, "a whole number from 0 to 10000");
@@ -145,6 +146,9 @@ TEST_F(Arguments, PlacesThatCannotBeWrittenAreNamedBeforeAnyWork) {
            {"plot haze -o x.pdf", "--output", "the file name \"x.pdf\"", "a name ending in .svg or .png"},
            {"plot haze -o no/x.svg", "no/x.svg", "no way to write it", "a place that can be written to"},
            {"plot haze -o /proc/x.png", "/proc/x.png", "no way to write it", "a place that can be written to"},
+           {"blend haze haze --at 0 -o x.png", "--output", "the file name \"x.png\"", "a name ending in .medium.json"},
+           {"blend haze haze --at 0 -o x", "--output", "the file name \"x\"", "a name ending in .medium.json"},
+           {"blend haze haze --at 0 -o ''", "--output", "the file name \"\"", "a name ending in .medium.json"},
            {"blend haze haze --at 0 -o no/x.medium.json", "no/x.medium.json", "no way to write it", "a place"},
            {"blend haze haze --at 0 -o /proc/x.medium.json", "/proc/x.medium.json", "no way to write it", "a place"}}) {
     expect_refused(arguments, where, found, expected);

@@ -52,7 +52,7 @@ def readme_commands_work(program, folder):
                 assert not line or line.startswith("make "), "not tried: " + line
                 continue
             line = line.replace("/tmp/", folder + "/").replace("--spp 32", "--spp 1").replace("--size 480x270", "--size 48x27")
-            run(program, *shlex.split(line)[1:])
+            run(program, *shlex.split(line, comments=True)[1:])
             count += 1
     assert count >= 6, count
 

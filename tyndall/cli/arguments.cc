@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <limits>
 #include <utility>
 
 #include "tyndall/document/spelling.h"
+#include "tyndall/document/whole_file.h"
 #include "tyndall/number/described.h"
 
 namespace tyndall {
@@ -24,6 +26,13 @@ void add_threads(CLI::App& command, int& threads) {
 void add_allow_path(CLI::App& command, bool& allow_path) {
   command.add_flag("--allow-path", allow_path,
                    "Follow references to files outside the folder of the file that names them");
+}
+
+void check_output(const std::string& name, const std::string& ending, const std::string& expected) {
+  if (std::filesystem::path(name).extension() != ending) {
+    throw Fault("--output", "the file name " + in_quotes(name), expected);
+  }
+  check_writable(name);
 }
 
 Check number_within(double low, double high) {

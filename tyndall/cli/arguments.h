@@ -13,6 +13,9 @@ void add_seed(CLI::App& command, std::uint64_t& seed);
 void add_threads(CLI::App& command, int& threads);
 void add_allow_path(CLI::App& command, bool& allow_path);
 
+/// Throws the Fault of an --output that cannot be: a name without this ending, a place that cannot be written to.
+void check_output(const std::string& name, const std::string& ending, const std::string& expected);
+
 /// Checks of an option's text, in the words of a Fault; the parser's own let "nan" through, and say less.
 using Check = std::function<std::string(const std::string&)>;
 /// A number within [low, high].

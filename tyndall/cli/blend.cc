@@ -40,9 +40,7 @@ void check_not_an_input(const BlendOptions& options) {
 }
 
 void blend(const BlendOptions& options) {
-  if (!(options.at >= 0.0 && options.at <= 1.0)) {
-    throw Fault("--at", "the number " + short_number(options.at), "a number from 0 (the first) to 1 (the second)");
-  }
+  check_output(options.out, ".json", "a name ending in .medium.json");
   const BlendHow how = how_of(options.how);
   check_not_an_input(options);
   auto [stated_a, a] = medium_of(options.a, options.media);
@@ -65,7 +63,7 @@ void add_blend(CLI::App& app) {
   CLI::App* command = app.add_subcommand("blend", "Make a medium that stands between two");
   command->add_option("A", options->a, "Medium file or preset to start from")->required();
   command->add_option("B", options->b, "Medium file or preset to go to")->required();
-  command->add_option("--at", options->at, "How far: 0 is A, 1 is B")->required();
+  command->add_option("--at", options->at, "How far: 0 is A, 1 is B")->required()->check(number_within(0.0, 1.0));
   command->add_option("--how", options->how, "interpolate, mix or morph")->capture_default_str();
   command->add_option("-o,--output", options->out, "Medium file to write (*.medium.json)")->required();
   add_medium_arguments(*command, options->media);
