@@ -19,6 +19,7 @@ struct LanePair {
 
   LanePair() = default;
   LanePair(double x) : a(static_cast<float>(x)), b(static_cast<float>(x)) {}  // NOLINT: as every number
+  explicit LanePair(const Lanes& both) : a(both), b(both) {}
   LanePair(const Lanes& x, const Lanes& y) : a(x), b(y) {}
 
   LanePair operator-() const { return {-a, -b}; }
@@ -39,6 +40,8 @@ struct LanePair {
   friend LanePair exp(const LanePair& x) { return {exp(x.a), exp(x.b)}; }
   friend LanePair expm1(const LanePair& x) { return {expm1(x.a), expm1(x.b)}; }
   friend LanePair log(const LanePair& x) { return {log(x.a), log(x.b)}; }
+  friend LanePair rough_log(const LanePair& x) { return {rough_log(x.a), rough_log(x.b)}; }
+  friend LanePair rough_exp(const LanePair& x) { return {rough_exp(x.a), rough_exp(x.b)}; }
   friend LanePair sin(const LanePair& x) { return {sin(x.a), sin(x.b)}; }
   friend LanePair cos(const LanePair& x) { return {cos(x.a), cos(x.b)}; }
   friend LanePair sinh(const LanePair& x) { return {sinh(x.a), sinh(x.b)}; }

@@ -34,9 +34,6 @@ inline Lanes with_sign_of(const Lanes& x, const Lanes& s) { return xsimd::copysi
 inline Lanes lookup(const SharedArray& array, const Lanes& index) {
   const float* from = array->data<float>();
 #if defined(__AVX512F__)
-  // 32 numbers fit into two registers.
-  if (array->size() == 32)
-    return _mm512_permutex2var_ps(_mm512_loadu_ps(from), _mm512_cvttps_epi32(index), _mm512_loadu_ps(from + 16));
   return _mm512_i32gather_ps(_mm512_cvttps_epi32(index), from, sizeof(float));
 #elif defined(__AVX2__)
   return _mm256_i32gather_ps(from, _mm256_cvttps_epi32(index), sizeof(float));
@@ -99,9 +96,32 @@ inline tyndall::Lanes log(const tyndall::Lanes& x) {
   __m512 p = constant(2.0 / 11.0);
   for (const double odd : {9.0, 7.0, 5.0, 3.0}) p = _mm512_fmadd_ps(p, s2, constant(2.0 / odd));
   // 2 s = f - s f, so that only the small second part carries the division's rounding.
-  const __m512 small = _mm512_fmadd_ps(_mm512_mul_ps(p, s2), s, _mm512_mul_ps(_mm512_sub_ps(_mm512_setzero_ps(), s), f));
+  const __m512 small =
+      _mm512_fmadd_ps(_mm512_mul_ps(p, s2), s, _mm512_mul_ps(_mm512_sub_ps(_mm512_setzero_ps(), s), f));
   const __m512 low = _mm512_fmadd_ps(n, constant(1.42860682030941723e-6), small);
   return _mm512_fmadd_ps(n, constant(0.693145751953125), _mm512_add_ps(f, low));
+}
+
+/// ln x to 1e-5 (absolutely), by a polynomial fitted at Chebyshev's points.
+inline tyndall::Lanes rough_log(const tyndall::Lanes& x) {
+  const auto constant = [](double c) { return _mm512_set1_ps(static_cast<float>(c)); };
+  const __m512 m = _mm512_getmant_ps(x, _MM_MANT_NORM_p75_1p5, _MM_MANT_SIGN_nan), one = constant(1.0);
+  const __m512 exponent = _mm512_getexp_ps(x), f = _mm512_sub_ps(m, one);
+  const __m512 n = _mm512_mask_add_ps(exponent, _mm512_cmp_ps_mask(m, one, _CMP_LT_OQ), exponent, one);
+  __m512 p = constant(0.12831185);
+  for (const double c : {-0.25547373, 0.34053327, -0.50026996, 0.99985581, 2.8092357e-06})
+    p = _mm512_fmadd_ps(p, f, constant(c));
+  return _mm512_fmadd_ps(n, constant(0.6931471805599453), p);
+}
+
+/// e^x to 4e-6 for |x| < 80, by a polynomial fitted at Chebyshev's points.
+inline tyndall::Lanes rough_exp(const tyndall::Lanes& x) {
+  const auto constant = [](double c) { return _mm512_set1_ps(static_cast<float>(c)); };
+  const __m512 n = _mm512_roundscale_ps(_mm512_mul_ps(x, constant(1.4426950408889634)), 0);
+  const __m512 r = _mm512_fnmadd_ps(n, constant(0.6931471805599453), x);
+  __m512 p = constant(0.041917568);
+  for (const double c : {0.1679218, 0.49998869, 0.99996227, 1.0}) p = _mm512_fmadd_ps(p, r, constant(c));
+  return _mm512_scalef_ps(p, n);
 }
 
 }  // namespace xsimd

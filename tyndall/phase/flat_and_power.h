@@ -13,17 +13,17 @@ LobeSum<T> flat_and_power_lobes(double flat, int n) {
   return {{T(flat), IsotropicLobe<T>{}}, {T(1.0 - flat), PowerLobe<T>{n}}};
 }
 
-/// Where the search for a quantile of such a law starts: polynomials in xi, fitted at Chebyshev's points, both in z from
-/// -1 to 1. Below `split` u is the straight line xi / flat times `low`, in z = -1 .. 1 for xi = straight .. split (below
-/// `straight` as there); above it is `high`.
+/// Where the search for a quantile of such a law starts: polynomials in xi, fitted at Chebyshev's points, both in z
+/// from -1 to 1. Below `split` u is the straight line xi / flat times `low`, in z = -1 .. 1 for xi = straight .. split
+/// (below `straight` as there); above it is `high`.
 struct FlatAndPowerStart {
   double straight, split;
   std::array<double, 7> low, high;
 };
 
-/// Solves F(u) = a u + (1 - a) u^(n+1) = xi, monotone in xi, xi in [0, 1], from a start that is at most 3e-4 off: one of
-/// Halley's steps is enough in float, three in double. A last Newton step in v = 1 - u on a v + (1 - a)(1 - u^(n+1)) =
-/// 1 - xi, free of cancellation, keeps 1 - mu relatively accurate at the peak.
+/// Solves F(u) = a u + (1 - a) u^(n+1) = xi, monotone in xi, xi in [0, 1], from a start that is at most 3e-4 off: one
+/// of Halley's steps is enough in float, three in double. A last Newton step in v = 1 - u on a v + (1 - a)(1 - u^(n+1))
+/// = 1 - xi, free of cancellation, keeps 1 - mu relatively accurate at the peak.
 template <class T>
 Deflection<T> flat_and_power_sample(double flat, int n, const FlatAndPowerStart& from, const T& xi) {
   const T ratio = T(1.0 / flat - 1.0);  // of the power lobe's share to the flat one: u + ratio u^(n+1) = xi / a
@@ -38,8 +38,8 @@ Deflection<T> flat_and_power_sample(double flat, int n, const FlatAndPowerStart&
   };
   const T low = named("low", max(T(-1.0), place(from.straight, from.split)));
   const T high = named("high", place(from.split, 1.0));
-  const T start = named("start", select(xi < T(from.split), target * polynomial(from.low, low),
-                                        polynomial(from.high, high)));
+  const T start =
+      named("start", select(xi < T(from.split), target * polynomial(from.low, low), polynomial(from.high, high)));
   const auto halley = [&](const std::array<T, 1>& state) -> std::array<T, 1> {
     const T u = named("u", state[0]);
     const T below = named("power", ratio * integer_power(u, n - 1));

@@ -20,10 +20,10 @@ struct Arrays {
   std::vector<float> xi, mu, one_minus, one_plus, value;
 
   // Deflections as the law itself scatters, xi in an order that no branch predictor knows.
-  explicit Arrays(const Law<float>& law) : xi(count), mu(count), one_minus(count), one_plus(count), value(count) {
+  explicit Arrays(const LobeSum<float>& lobes) : xi(count), mu(count), one_minus(count), one_plus(count), value(count) {
     for (std::size_t i = 0; i < count; ++i) {
       xi[i] = (static_cast<float>((i * 2654435761U) % count) + 0.5F) / static_cast<float>(count);
-      const Deflection<float> d = sample(law, xi[i]);
+      const Deflection<float> d = sample(lobes, xi[i]);
       mu[i] = d.mu;
       one_minus[i] = d.one_minus;
       one_plus[i] = d.one_plus;
@@ -82,24 +82,27 @@ void scalar_sample(const Law<float>& law, const LobeSum<float>& lobes, const std
 }
 
 void add(const std::string& name, const std::function<void()>& body) {
-  benchmark::RegisterBenchmark(name.c_str(), [body](benchmark::State& state) {
-    for (auto _ : state) {
-      body();
-      benchmark::ClobberMemory();  // the arrays are reachable from outside: every result is stored, every input read
-    }
-    report(state);
-  })
+  benchmark::RegisterBenchmark(name.c_str(),
+                               [body](benchmark::State& state) {
+                                 for (auto _ : state) {
+                                   body();
+                                   benchmark::ClobberMemory();  // the arrays are reachable from outside: every result
+                                                                // is stored, every input read
+                                 }
+                                 report(state);
+                               })
       // The machine is shared: the least of many short runs is what it can do.
       ->MinTime(0.01)
       ->Repetitions(9)
       ->ReportAggregatesOnly(true)
-      ->ComputeStatistics("least", [](const std::vector<double>& all) { return *std::min_element(all.begin(), all.end()); });
+      ->ComputeStatistics("least",
+                          [](const std::vector<double>& all) { return *std::min_element(all.begin(), all.end()); });
 }
 
 void add_law(const std::string& name, const Law<double>& exact) {
   const auto law = std::make_shared<Law<float>>(law_as<float>(exact));
   const auto lobes = std::make_shared<LobeSum<float>>(lobes_as<float>(lower(exact)));
-  const auto a = std::make_shared<Arrays>(*law);
+  const auto a = std::make_shared<Arrays>(*lobes);
   benchmark::DoNotOptimize(a.get());
   add("density/" + name + "/scalar", [=] { scalar_density(*lobes, *a); });
   std::vector<InstructionSet> sets{InstructionSet::baseline};
@@ -110,7 +113,7 @@ void add_law(const std::string& name, const Law<double>& exact) {
       arrays.density({a->mu, a->one_minus, a->one_plus}, a->value);
     });
   }
-  const auto b = std::make_shared<Arrays>(*law);
+  const auto b = std::make_shared<Arrays>(*lobes);
   benchmark::DoNotOptimize(b.get());
   add("sample/" + name + "/scalar", [=, start = quantile_start(*lobes)] { scalar_sample(*law, *lobes, start, *b); });
   for (const InstructionSet set : sets) {

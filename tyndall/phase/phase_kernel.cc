@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "tyndall/number/lane_pair.h"
+#include "tyndall/number/lane_table.h"
 #include "tyndall/phase/mie_hazy.h"
 #include "tyndall/phase/mie_murky.h"
 #include "tyndall/phase/nishita_murky.h"
@@ -61,34 +61,27 @@ void store(const LanePair& x, float* to, std::size_t first, std::size_t) {
   x.b.store_unaligned(to + first + Lanes::size);
 }
 
-// What is the same in all lanes, in pairs and in single registers.
+// The lobe in pairs, made where it is used, so that the compiler sees that both halves have the same parameters.
 template <template <class> class L>
-struct BothWays {
-  L<Lanes> single;
+L<LanePair> in(const L<Lanes>& lobe, std::type_identity<LanePair>) {
   L<LanePair> pair;
-  const L<Lanes>& in(std::type_identity<Lanes>) const { return single; }
-  const L<LanePair>& in(std::type_identity<LanePair>) const { return pair; }
-};
-
-// Calls visit(BothWays of the lobe that the record stands for).
-template <class Visit>
-void visit_lobe(const LobeRecord& record, Visit visit) {
-  std::visit(
-      [&]<template <class> class L>(const L<Lanes>& lobe) {
-        visit(BothWays<L>{lobe, std::get<L<LanePair>>(lobe_of<LanePair>(record))});
-      },
-      lobe_of<Lanes>(record));
+  for_each_parameter(pair, lobe, []<class To, class From>(To& x, const From& y) { x = To(y); });
+  return pair;
+}
+template <template <class> class L>
+const L<Lanes>& in(const L<Lanes>& lobe, std::type_identity<Lanes>) {
+  return lobe;
 }
 
 // One pass over the arrays for each lobe, so that what belongs to the lobe is computed once. Everything is inlined
 // (flatten): a register that crosses a call goes through memory, and what belongs to the lobe would not leave the loop.
-template <class Lobes, class Evaluate>
-[[gnu::flatten]] void add_lobe(const PhaseKernelCall& call, int k, Lobes lobes, Evaluate evaluate) {
+template <class L, class Evaluate>
+[[gnu::flatten]] void add_lobe(const PhaseKernelCall& call, int k, L lobe, Evaluate evaluate) {
   const float share = call.lobes[k].weight;
   for_blocks(call.count, [&]<class T>(std::size_t first, std::size_t lanes, std::type_identity<T> number) {
     const Deflection<T> d{load(call.mu, first, lanes, number), load(call.one_minus, first, lanes, number),
                           load(call.one_plus, first, lanes, number)};
-    const T term = T(share) * evaluate(lobes.in(number), d);
+    const T term = T(share) * evaluate(in(lobe, number), d);
     store(k == 0 ? term : load(call.value, first, lanes, number) + term, call.value, first, lanes);
   });
 }
@@ -96,7 +89,7 @@ template <class Lobes, class Evaluate>
 template <class Evaluate>
 void add_up(const PhaseKernelCall& call, Evaluate evaluate) {
   for (int k = 0; k < call.lobe_count; ++k)
-    visit_lobe(call.lobes[k], [&](const auto& lobes) { add_lobe(call, k, lobes, evaluate); });
+    std::visit([&](const auto& lobe) { add_lobe(call, k, lobe, evaluate); }, lobe_of<Lanes>(call.lobes[k]));
 }
 
 template <class Inverse>
@@ -119,22 +112,30 @@ void sample_law(const PhaseKernelCall& call) {
 class Search {
  public:
   explicit Search(const PhaseKernelCall& call) : call_(call), start_(*call.start) {
-    for (int k = 0; k < call.lobe_count; ++k) lobes_.push_back(lobe_of<LanePair>(call.lobes[k]));
+    for (int k = 0; k < call.lobe_count; ++k) lobes_.push_back(lobe_of<Lanes>(call.lobes[k]));
   }
 
   void run() {
     for (std::size_t first = 0; first < call_.count; first += size) {
       const std::size_t count = std::min(size, call_.count - first);
       full_ = (count + LanePair::size - 1) / LanePair::size * LanePair::size;
-      std::copy_n(call_.xi + first, count, xi_);
-      std::fill(xi_ + count, xi_ + full_, 0.5F);
+      xi_ = call_.xi + first;
+      if (count < full_) {
+        std::copy_n(xi_, count, padded_);
+        std::fill(padded_ + count, padded_ + full_, 0.5F);
+        xi_ = padded_;
+      }
       begin();
       for (int taken = 1;; ++taken) {
         pass_lobes();
         if (taken == start_.steps) break;
         step();
       }
-      finish();
+      if (count == full_) {
+        finish(call_.sampled_mu + first, call_.sampled_one_minus + first, call_.sampled_one_plus + first);
+        continue;
+      }
+      finish(s_, one_minus_, one_plus_);
       std::copy_n(s_, count, call_.sampled_mu + first);
       std::copy_n(one_minus_, count, call_.sampled_one_minus + first);
       std::copy_n(one_plus_, count, call_.sampled_one_plus + first);
@@ -156,14 +157,20 @@ class Search {
     put(d.one_plus, one_plus_, i);
   }
 
+  // In three loops: the shorter a loop's body, the more of its turns a processor works on at the same time.
   [[gnu::flatten]] void begin() {
     for (std::size_t i = 0; i < full_; i += LanePair::size) {
       const LanePair xi = at(xi_, i);
-      const auto place = start_.place(xi, LanePair(1.0) - xi);
+      put(QuantileStart::key(xi, LanePair(1.0) - xi), s_, i);
+    }
+    const QuantileStart::Table<LanePair> table(start_.columns);
+    for (std::size_t i = 0; i < full_; i += LanePair::size) {
+      const auto place = QuantileStart::place(table, at(s_, i));
+      put(place.s, s_, i);
       put(place.rise, rise_, i);
       put(place.bend, bend_, i);
-      go_to(place.s, i);
     }
+    for (std::size_t i = 0; i < full_; i += LanePair::size) go_to(at(s_, i), i);
   }
   void pass_lobes() {
     for (std::size_t k = 0; k < lobes_.size(); ++k)
@@ -171,16 +178,17 @@ class Search {
   }
   template <class L>
   [[gnu::flatten]] void pass(const L& given, const LanePair& weight, bool is_first) {
-    const L lobe = given;  // ours alone: no store can change it
+    const L single = given;  // ours alone: no store can change it
+    const auto lobe = in(single, std::type_identity<LanePair>{});
     for (std::size_t i = 0; i < full_; i += LanePair::size) {
       const Deflection<LanePair> d = deflection(i);
       const auto add = [&](const LanePair& term, float* to) {
         put(is_first ? weight * term : fma(weight, term, at(to, i)), to, i);
       };
-      const LanePair below = lobe.cdf(d), above = lobe.survival(d), density = lobe.density(d);
-      add(below, below_);
-      add(above, above_);
-      add(density, density_);
+      const Passage<LanePair> passage = passage_of(lobe, d);
+      add(passage.below, below_);
+      add(passage.above, above_);
+      add(passage.density, density_);
     }
   }
   [[gnu::flatten]] void step() {
@@ -189,30 +197,33 @@ class Search {
       go_to(at(s_, i) + QuantileStart::step(xi, LanePair(1.0) - xi, deflection(i), passage(i)), i);
     }
   }
-  [[gnu::flatten]] void finish() {
+  [[gnu::flatten]] void finish(float* mu, float* one_minus, float* one_plus) {
     for (std::size_t i = 0; i < full_; i += LanePair::size) {
       const LanePair xi = at(xi_, i);
       const QuantileStart::Place<LanePair> from{at(s_, i), at(rise_, i), at(bend_, i)};
       const Deflection<LanePair> d = QuantileStart::last(xi, LanePair(1.0) - xi, from, deflection(i), passage(i));
-      put(d.mu, s_, i);
-      put(d.one_minus, one_minus_, i);
-      put(d.one_plus, one_plus_, i);
+      put(d.mu, mu, i);
+      put(d.one_minus, one_minus, i);
+      put(d.one_plus, one_plus, i);
     }
   }
 
   const PhaseKernelCall& call_;
   const QuantileStart& start_;
-  std::vector<Lobe<LanePair>> lobes_;
+  std::vector<Lobe<Lanes>> lobes_;
   std::size_t full_ = 0;
-  float xi_[size], s_[size], rise_[size], bend_[size], one_minus_[size], one_plus_[size], below_[size], above_[size],
-      density_[size];
+  const float* xi_ = nullptr;
+  alignas(64) float padded_[size], s_[size], rise_[size], bend_[size],
+      one_minus_[size], one_plus_[size], below_[size], above_[size], density_[size];
 };
 
 void sample_lobes(const PhaseKernelCall& call) {
   if (call.lobe_count == 1 && call.start == nullptr) {
-    visit_lobe(call.lobes[0], [&](const auto& lobes) {
-      sample_all(call, [lobes](const auto& xi, auto number) { return lobes.in(number).sample(xi); });
-    });
+    std::visit(
+        [&](const auto& lobe) {
+          sample_all(call, [lobe](const auto& xi, auto number) { return in(lobe, number).sample(xi); });
+        },
+        lobe_of<Lanes>(call.lobes[0]));
   } else if (is_law_of<MieHazy>(call)) {
     sample_law<MieHazy>(call);
   } else if (is_law_of<MieMurky>(call)) {

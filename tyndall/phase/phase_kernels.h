@@ -23,7 +23,8 @@ struct DeflectionResults {
 class PhaseArrays {
  public:
   /// `lobes` is not empty. Takes some milliseconds where sampling needs a search (Draine's, Fournier and Forand's lobe,
-  /// sums of lobes), for which it is prepared. `set` must be one that this machine can run (best_instruction_set() and below).
+  /// sums of lobes), for which it is prepared. `set` must be one that this machine can run (best_instruction_set() and
+  /// below).
   explicit PhaseArrays(const LobeSum<float>& lobes, InstructionSet set = best_instruction_set());
 
   /// Phase function at each deflection [1/sr]; all arrays of equal length.
