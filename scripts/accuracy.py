@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""accuracy.py [PROGRAM [TRUTH.json]]: writes docs/accuracy.md by running the program on every case of the reference data.
+"""Writes docs/accuracy.md by running the program on every case of the reference data.
 
     python3 scripts/accuracy.py build/tyndall ../shared/acceptance/public.json
 
@@ -8,6 +8,7 @@ check the same cases read it. The laws' own errors are measured by scripts/law_a
 instruction set of this machine; executed GLSL by the test program beside the program (`make test` builds it). Python's standard
 library only.
 """
+import argparse
 import json
 import math
 import os
@@ -510,9 +511,13 @@ def laws(program, folder):
 
 
 def main():
-    program = os.path.abspath(sys.argv[1] if len(sys.argv) > 1 else os.path.join(HERE, "..", "build", "tyndall"))
-    source = sys.argv[2] if len(sys.argv) > 2 else os.path.join(HERE, "..", "..", "shared", "acceptance", "public.json")
-    with open(source, encoding="utf-8") as file:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", nargs="?", default=os.path.join(HERE, "..", "build", "tyndall"), help="default: build/tyndall")
+    parser.add_argument("truth", nargs="?", default=os.path.join(HERE, "..", "..", "shared", "acceptance", "public.json"),
+                        help="the reference data, a .json; default: beside the source tree")
+    arguments = parser.parse_args()
+    program = os.path.abspath(arguments.program)
+    with open(arguments.truth, encoding="utf-8") as file:
         truth = json.load(file)
     head = ["| category | values | worst z | chi-square | its 0.001 to 0.999 quantiles | largest standard error |", "|---|---|---|---|---|---|"]
     with tempfile.TemporaryDirectory() as folder:

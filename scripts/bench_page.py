@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""bench_page.py BUILD [laws]: writes docs/bench.md, or only its section of laws, from BUILD/bench/*.json, which scripts/bench.sh
-leaves. Run by `make bench`."""
+"""Writes docs/bench.md, or only its section of laws, from BUILD/bench/*.json, which scripts/bench.sh leaves. Run by
+`make bench`."""
+import argparse
 import json
 import os
 import subprocess
@@ -161,7 +162,11 @@ def page(build):
 
 
 def main():
-    build, only_laws = sys.argv[1], sys.argv[2:] == ["laws"]
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("build", help="the build folder of `make bench`: build-bench")
+    parser.add_argument("section", nargs="?", choices=["laws"], help="only this section; the rest of the page stays")
+    arguments = parser.parse_args()
+    build, only_laws = arguments.build, arguments.section == "laws"
     where = os.path.join(HERE, "..", "docs", "bench.md")
     lines = law_section(build) if only_laws else page(build)
     if only_laws:  # the rest of the page stays as it is

@@ -213,18 +213,19 @@ void add_render(CLI::App& app) {
   command
       ->add_option("-o,--output", options->outputs,
                    "Where to write: .exr (all layers, linear) or .png (to look at); may be given twice")
+      ->allow_extra_args(false)  // what follows the name is an argument of its own, such as the scene
       ->required();
   command->add_option("--spp", options->spp, "Samples per pixel: four times as many halve the noise")
-      ->check(CLI::Range(1, 1 << 24));
+      ->check(whole_within(1, 1 << 24));
   command->add_option("--size", options->size, "Width and height in pixels, such as 1280x720");
   command
       ->add_option("--integrator", options->integrator,
                    "path: all light, noisy at first; single: one scattering, no noise")
-      ->check(CLI::IsMember(std::vector<std::string>(integrator_names.begin(), integrator_names.end())));
+      ->check(word_of({integrator_names.begin(), integrator_names.end()}));
   command->add_option("--exposure", options->exposure, "Brighter (+) or darker (-) in stops, .png only (default 0)")
       ->check(number_within(-60.0, 60.0));
   command->add_option("--tone", options->tone, "filmic (default): highlights roll off; none: cut at white; .png only")
-      ->check(CLI::IsMember(std::vector<std::string>(tone_names.begin(), tone_names.end())));
+      ->check(word_of({tone_names.begin(), tone_names.end()}));
   add_threads(*command, options->threads);
   add_seed(*command, options->seed);
   add_long_work(*command, options->long_work);
