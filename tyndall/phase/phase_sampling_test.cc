@@ -2,8 +2,8 @@
 // soak, hard parameters included.
 //
 // False alarms: each case may fail three times in a million if its random numbers were drawn anew
-// (sample_histogram_test.h), so the 214 cases together seven times in ten thousand, in soak thrice as often. Seeds are fixed, so
-// that a run that passed passes.
+// (sample_histogram_test.h), so the 214 cases together seven times in ten thousand, in soak thrice as often. Seeds are
+// fixed, so that a run that passed passes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
