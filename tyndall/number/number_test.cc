@@ -1,6 +1,7 @@
 // What a number must do, for Dual and Symbol against double; the elementary texts that shaders get.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -114,6 +115,9 @@ extern "C" {
 void lanes_check_baseline(const float*, const float*, float*, std::size_t);
 void lanes_check_avx2(const float*, const float*, float*, std::size_t);
 void lanes_check_avx512(const float*, const float*, float*, std::size_t);
+void lane_functions_check_baseline(const float*, const float*, float*, std::size_t);
+void lane_functions_check_avx2(const float*, const float*, float*, std::size_t);
+void lane_functions_check_avx512(const float*, const float*, float*, std::size_t);
 }
 
 TEST(Lanes, ComputeWhatFloatComputes) {
@@ -133,6 +137,52 @@ TEST(Lanes, ComputeWhatFloatComputes) {
       for (std::size_t k = 0; k < operations; ++k) {
         EXPECT_NEAR(static_cast<double>(found[k * count + i]), expected[k], 1e-6 * std::fabs(expected[k]))
             << name_of(set) << ", operation " << k << " of " << a[i] << ", " << b[i];
+      }
+    }
+  }
+}
+
+// Ours where xsimd's are slow or missing, over all of float: overflow, underflow, both sides of 0 and of 1.
+TEST(Lanes, PairsHaveTheirFunctionsWithAllDigits) {
+  std::vector<float> x, y;
+  for (double size = 1e-9; size < 87.0; size *= 1.03) {
+    for (const double sign : {1.0, -1.0}) {
+      x.push_back(static_cast<float>(sign * size));
+      const double shift = size < 0.5 ? 1.0 + sign * size : std::exp(sign * size);
+      y.push_back(static_cast<float>(shift));
+    }
+  }
+  while (x.size() % 32 != 0) {
+    x.push_back(0.5F);
+    y.push_back(1.0F);
+  }
+  const std::size_t count = x.size(), operations = every_operation(1.0F, 1.0F).size();
+  const auto exactly = [](float value) { return static_cast<double>(value); };
+  for (const InstructionSet set : {InstructionSet::baseline, InstructionSet::avx2, InstructionSet::avx512}) {
+    if (set > best_instruction_set()) continue;
+    std::vector<float> found(count * (7 + operations));
+    choose_kernel(set, lane_functions_check_baseline, lane_functions_check_avx2, lane_functions_check_avx512)(
+        x.data(), y.data(), found.data(), count);
+    for (std::size_t i = 0; i < count; ++i) {
+      SCOPED_TRACE(std::string(name_of(set)) + ", x = " + std::to_string(x[i]) + ", y = " + std::to_string(y[i]));
+      const auto result = [&](std::size_t k) { return exactly(found[k * count + i]); };
+      const auto near = [&](std::size_t k, double expected, double error) {
+        EXPECT_NEAR(result(k), expected, error * std::fabs(expected)) << "function " << k;
+      };
+      near(0, std::exp(exactly(x[i])), 2e-7);
+      near(1, std::expm1(exactly(x[i])), 3e-7);
+      near(2, std::log(exactly(y[i])), 3e-7);
+      near(3, std::exp(exactly(x[i])), 1e-4);
+      EXPECT_NEAR(result(4), std::log(exactly(y[i])), 2e-5);
+      if (set != InstructionSet::baseline) {  // which has no fused multiply-add
+        EXPECT_EQ(result(5), exactly(std::fma(x[i], y[i], -(x[i] * y[i]))));
+      }
+      const double row = std::clamp(std::floor(exactly(x[i])), -12.0, 19.0);
+      EXPECT_EQ(result(6), row * row);
+      if (std::fabs(x[i]) > 20.0F || y[i] > 1e3F) continue;  // where every_operation() may overflow
+      const auto expected = every_operation(std::fabs(exactly(x[i])), exactly(y[i] + 1.0F));
+      for (std::size_t k = 0; k < operations; ++k) {
+        EXPECT_NEAR(result(7 + k), expected[k], 2e-6 * std::fabs(expected[k]) + 1e-30) << "operation " << k;
       }
     }
   }
