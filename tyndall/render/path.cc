@@ -10,8 +10,8 @@
 namespace tyndall {
 
 PathContext::PathContext(const Scene& scene, const Geometry& geometry, int max_depth, double follow_through)
-    : prepared_(new Prepared{scene, geometry, lower(scene.medium, scene.time), PathLights(scene), max_depth,
-                             follow_through}) {}
+    : prepared_(new Prepared{
+          scene, geometry, lower(scene.medium, scene.time), PathLights(scene), max_depth, follow_through, {}}) {}
 PathContext::~PathContext() = default;
 
 namespace {
@@ -23,6 +23,7 @@ struct Walk {
   int scatterings = 0, bounces = 0;
   double direction_density = 0.0;  // with which ray.direction was sampled [1/sr]; 0: it was given (a camera ray)
   LampAim aim;                     // of the event that sampled it
+  double sun_tries = 0.0;          // there: how often, in the mean, it followed a ray of each sun instead
   double first_promise = 0.0;      // PathLights::promise_at its first event
 
   int depth() const { return scatterings + bounces; }
@@ -45,6 +46,8 @@ struct PathTracer::State {
   std::vector<Stretch> stretches, shadow;
   ScatterPoint scatter, beside;  // at the collision; at a lamp's sample of the same segment
   LampSegment segment;
+  std::vector<SunLesson>* lessons = nullptr;  // where to write what is met of the suns, if anybody learns
+  std::uint64_t sun_tries = 0;                // how often it was looked for
 
   bool may_go_on(const Walk& walk) const { return context.max_depth == 0 || walk.depth() < context.max_depth; }
 
@@ -179,18 +182,118 @@ struct PathTracer::State {
       const Flight flight = sample_flight(stretches, walk.beta, end, true, xi_channel, xi);
       if (!(flight.t < end)) continue;
       beside.set(context.medium, stretches, flight.t);
-      sunlight(walk, beside, walk.ray.at(flight.t), walk.beta * flight.weight / static_cast<double>(places), random);
+      const Vector point = walk.ray.at(flight.t);
+      const Spectrum beta = walk.beta * flight.weight / static_cast<double>(places);
+      for (std::size_t i_sun = 0; i_sun < context.lights.suns.size(); ++i_sun) {
+        const LightSample light = sample_sun(context.lights.suns[i_sun], random.next(), random.next());
+        const Spectrum f = beside.scattered(deflection_between(-light.direction, -walk.ray.direction));
+        if (is_zero(f)) continue;
+        const Spectrum light_there = light.radiance * unoccluded({point, light.direction}, infinity);
+        learn_of_sun(walk, i_sun, point, light.direction, beta * f * light_there);
+        double weight = 1.0;
+        const double beams =
+            walk.sun_tries > 0.0 ? walk.sun_tries * context.beams[i_sun].density(point, -light.direction) : 0.0;
+        if (beams > 0.0) {
+          const double chance = mean(extinction_at(stretches, flight.t) * transmittance(stretches, flight.t));
+          weight = 1.0 - shaft_weight(beams, walk.ray.origin, point, light.direction, walk.direction_density * chance);
+        }
+        add(walk, beta * f * light_there * weight, 1, 0);
+      }
     }
   }
 
-  /// Adds the sunlight that a collision at `point` scatters toward the walk.
-  void sunlight(const Walk& walk, const ScatterPoint& at, const Vector& point, const Spectrum& beta,
-                RandomStream& random) {
-    for (const SunLight& sun : context.lights.suns) {
-      const LightSample light = sample_sun(sun, random.next(), random.next());
-      const Spectrum f = at.scattered(deflection_between(-light.direction, -walk.ray.direction));
-      if (!is_zero(f)) add(walk, beta * f * light.radiance * unoccluded({point, light.direction}, infinity), 1, 0);
+  void learn_of_sun(const Walk& walk, std::size_t sun, const Vector& place, const Vector& toward,
+                    const Spectrum& brought) {
+    if (lessons == nullptr || walk.depth() == 0) return;
+    ++sun_tries;
+    if (const double worth = sum(brought); worth > 0.0 && std::isfinite(worth)) {
+      lessons->push_back({static_cast<std::uint32_t>(sun), place, -toward, worth});
     }
+  }
+
+  /// The balance heuristic between two ways to a place in the air that lights `from`: along a ray of the sun that
+  /// passes there, equiangularly seen from `from` (`beams`: rays per area), and by a walk (`walks`: density [1/sr] of
+  /// the direction times that [1/m] of colliding there). The factor 1/r^2 of both is left out; so is how far the ray
+  /// goes, which the one side does not know: any function of the place weighs without bias.
+  static double shaft_weight(double beams, const Vector& from, const Vector& place, const Vector& toward,
+                             double walks) {
+    return balance(beams * length(cross(from - place, toward)) / std::numbers::pi, walks);
+  }
+
+  /// Another way to sunlight one event ahead, where walks seldom find it (SunBeams): along a ray of the sun, to the
+  /// surface it hits and to a place in the air that it lights. As toward_lamplight, with that function's arguments.
+  template <class Reflect, class Density>
+  void toward_sunlight(Walk& walk, const Vector& from, int scatterings, int bounces, RandomStream& random,
+                       Reflect reflect, Density density) {
+    walk.sun_tries = 0.0;
+    if (context.beams.empty() || (context.max_depth != 0 && walk.depth() + 1 >= context.max_depth)) return;
+    walk.sun_tries = walk.depth() < 2 ? 1.0 : 0.3;
+    if (walk.sun_tries < 1.0 && random.next() >= walk.sun_tries) return;
+    random.align(4);
+    for (std::size_t i = 0; i < context.beams.size(); ++i) {
+      const SunBeams& beams = context.beams[i];
+      if (!beams.useful()) continue;
+      const double xi[2] = {random.next(), random.next()};
+      const LightSample sun = sample_sun(context.lights.suns[i], random.next(), random.next());
+      const Ray beam{beams.sample(xi[0], xi[1]), -sun.direction};
+      const auto lit = context.geometry.intersect(beam);
+      if (lit) {
+        const Vector way = lit->point - from;
+        const double squared = length_squared(way);
+        const Vector direction = squared > 0.0 ? way / std::sqrt(squared) : Vector{};
+        const Spectrum f = squared > 0.0 ? reflect(direction) : Spectrum{};
+        const Spectrum reflected =
+            is_zero(f) ? f : evaluate(surface_point(context.geometry, *lit), -direction, sun.direction);
+        if (!is_zero(reflected)) {
+          const double own = walk.sun_tries * sunlit_density(i, *lit, beam.direction, from);
+          const Spectrum through = transmittance(context.medium, {lit->point, sun.direction}, infinity, shadow);
+          const Vector start = context.geometry.leave(lit->point, lit->geometric_normal);
+          const double weight = balance(own, density(direction)) / own;
+          add(walk, f * reflected * sun.radiance * through * unoccluded(from, start) * weight, scatterings,
+              bounces + 1);
+        }
+      }
+      // Between the first and the last air on the ray, equiangular about `from`.
+      stretches_along(context.medium, beam, lit ? lit->t : infinity, stretches);
+      if (stretches.empty()) continue;
+      Interval air{infinity, 0.0};
+      for (const Stretch& s : stretches) {
+        air = {std::min(air.begin, s.range.begin), std::max(air.end, s.range.end)};
+      }
+      const double a = dot(from - beam.origin, beam.direction);
+      const double h = std::max(length(cross(from - beam.origin, beam.direction)), 1e-9);
+      const double angle0 = std::atan2(air.begin - a, h), angle1 = std::atan2(air.end - a, h);
+      const double t = a + h * std::tan(angle0 + random.next() * (angle1 - angle0));
+      if (!(t > air.begin && t < air.end)) continue;
+      const Vector place = beam.at(t), way = place - from;
+      const double squared = length_squared(way);
+      if (squared == 0.0) continue;
+      const Vector direction = way / std::sqrt(squared);
+      const Spectrum f = reflect(direction);
+      if (is_zero(f)) continue;
+      beside.set(context.medium, stretches, t);
+      const Spectrum scattered = beside.scattered(deflection_between(beam.direction, -direction));
+      if (is_zero(scattered)) continue;
+      const Spectrum extinction = extinction_at(stretches, t);
+      const Spectrum clear = unoccluded(from, place);
+      if (is_zero(clear)) continue;
+      const double rays = beams.density(place, beam.direction);
+      const double along = h / ((angle1 - angle0) * squared);  // density [1/m] of t: r^2 = h^2 + (t - a)^2
+      const double weight = shaft_weight(walk.sun_tries * rays, from, place, sun.direction,
+                                         density(direction) * mean(extinction * clear));
+      const Spectrum light = sun.radiance * transmittance(context.medium, {place, sun.direction}, infinity, shadow);
+      add(walk, f * scattered * light * clear * (weight / (walk.sun_tries * rays * along * squared)), scatterings + 1,
+          bounces);
+    }
+  }
+
+  /// Density [1/sr] at `from` of the direction to a place on a surface that a ray of the sun hits, chosen as above.
+  double sunlit_density(std::size_t sun, const Hit& lit, const Vector& travel, const Vector& from) const {
+    const Vector way = lit.point - from;
+    const double facing = std::fabs(dot(lit.geometric_normal, normalized(way)));
+    if (facing == 0.0) return 0.0;
+    return context.beams[sun].density(lit.point, travel) * std::fabs(dot(lit.geometric_normal, travel)) *
+           length_squared(way) / facing;
   }
 
   /// Light of a lamp scattered back along the ray of `stretches` at a sampled distance, over the sample's density.
@@ -290,10 +393,14 @@ struct PathTracer::State {
       if (!is_zero(contribution)) add(walk, contribution * unoccluded({point, light.direction}, light.distance), 1, 0);
     }
     aim(walk, point, extinction_at(stretches, t));
-    toward_lamplight(
-        walk, point, 1, 0, random,
-        [&](const Vector& next) { return walk.beta * scatter.scattered(deflection_between(walk.ray.direction, next)); },
-        [&](const Vector& next) { return scatter.density(deflection_between(walk.ray.direction, next)); });
+    const auto reflect = [&](const Vector& next) {
+      return walk.beta * scatter.scattered(deflection_between(walk.ray.direction, next));
+    };
+    const auto density_of = [&](const Vector& next) {
+      return scatter.density(deflection_between(walk.ray.direction, next));
+    };
+    toward_lamplight(walk, point, 1, 0, random, reflect, density_of);
+    toward_sunlight(walk, point, 1, 0, random, reflect, density_of);
     const Deflection<double> d = scatter.sample(xi[0]);
     const double density = scatter.density(d);
     if (!(density > 0.0)) return false;
@@ -327,10 +434,15 @@ struct PathTracer::State {
               : 1.0;
       add(walk, lamp.reflected * unoccluded(start, position) * (weight / lamp.density), 0, 1);
     }
-    for (const SunLight& sun : context.lights.suns) {
-      const LightSample light = sample_sun(sun, random.next(), random.next());
+    for (std::size_t i = 0; i < context.lights.suns.size(); ++i) {
+      const LightSample light = sample_sun(context.lights.suns[i], random.next(), random.next());
       const Spectrum f = surface.evaluate(light.direction);
-      if (!is_zero(f)) add(walk, walk.beta * f * light.radiance * unoccluded({start, light.direction}, infinity), 0, 1);
+      if (is_zero(f)) continue;
+      const Spectrum brought = walk.beta * f * light.radiance * unoccluded({start, light.direction}, infinity);
+      learn_of_sun(walk, i, hit.point, light.direction, brought);
+      const double beams =
+          walk.sun_tries > 0.0 ? walk.sun_tries * sunlit_density(i, hit, -light.direction, walk.ray.origin) : 0.0;
+      add(walk, brought * (beams > 0.0 ? balance(walk.direction_density, beams) : 1.0), 0, 1);
     }
     for (const auto& light :
          {context.lights.sample_environment(random), context.lights.sample_emitter(start, random)}) {
@@ -342,9 +454,10 @@ struct PathTracer::State {
     }
     stretches_along(context.medium, {start, hit.geometric_normal}, infinity, stretches);
     aim(walk, start, extinction_at(stretches, 0.0));
-    toward_lamplight(
-        walk, start, 0, 1, random, [&](const Vector& next) { return walk.beta * surface.evaluate(next); },
-        [&](const Vector& next) { return surface.density(next); });
+    const auto reflect = [&](const Vector& next) { return walk.beta * surface.evaluate(next); };
+    const auto density_of = [&](const Vector& next) { return surface.density(next); };
+    toward_lamplight(walk, start, 0, 1, random, reflect, density_of);
+    toward_sunlight(walk, start, 0, 1, random, reflect, density_of);
     const Vector in = surface.sample(xi[2], xi[0], xi[1]);
     const double density = surface.density(in);
     if (!(density > 0.0)) return false;
@@ -368,6 +481,8 @@ struct PathTracer::State {
 
 PathTracer::PathTracer(const PathContext& context) : state_(new State(context.prepared())) {}
 PathTracer::~PathTracer() = default;
+void PathTracer::teach(std::vector<SunLesson>& lessons) { state_->lessons = &lessons; }
+std::uint64_t PathTracer::sun_tries() const { return state_->sun_tries; }
 PathSample PathTracer::trace(const Ray& ray, double distance, RandomStream& random, bool sees_sun) {
   return state_->trace(ray, distance, random, sees_sun);
 }

@@ -15,6 +15,9 @@ namespace {
 
 constexpr int tile_size = 16;
 
+/// Paths to learn from: a sixteenth of all, within limits.
+constexpr std::uint64_t least_lessons = 1u << 11, most_lessons = 1u << 16;
+
 struct Tile {
   int x0, y0, x1, y1;
 };
@@ -102,7 +105,11 @@ Image render(const Scene& scene, const Geometry& geometry, const RenderSettings&
       }
     });
   } else {
-    const PathContext context(scene, geometry, settings.max_depth);
+    PathContext context(scene, geometry, settings.max_depth);
+    const auto all = static_cast<std::uint64_t>(settings.spp) * static_cast<std::uint64_t>(film.width()) *
+                     static_cast<std::uint64_t>(film.height());
+    context.learn(camera, scene.film, std::max(least_lessons, std::min(all / 16, most_lessons)), settings.seed,
+                  settings.threads);
     std::vector<std::unique_ptr<PathTracer>> tracers;
     for (int i = 0; i < thread_count(settings.threads); ++i) tracers.push_back(std::make_unique<PathTracer>(context));
     for (int done = 0; done < settings.spp && !rendering.stopped();) {
