@@ -164,8 +164,11 @@ struct PathTracer::State {
       const LampSegment::Sample at = segment.sample(context.lights.lamps, (i + offset) / count, xi_choice, xi);
       double weight = 1.0 / count;
       if (walk.direction_density > 0.0) {
-        const double other = walk.aim.tries() * walk.aim.density(context.lights.lamps[at.lamp], walk.ray.direction);
-        weight *= balance(walk.direction_density, other);
+        const Lamp& lamp = context.lights.lamps[at.lamp];
+        const double other = walk.aim.tries() * walk.aim.density(lamp, walk.ray.direction);
+        weight *= balance(walk.direction_density, other) *
+                  (1.0 - lamp_shaft_weight(walk.aim, lamp, walk.ray.origin, walk.ray.at(at.t),
+                                           walk.direction_density + other));
       }
       add(walk, walk.beta * airlight(walk.ray, end, at) * weight, 1, 0);
     }
@@ -253,38 +256,63 @@ struct PathTracer::State {
               bounces + 1);
         }
       }
-      // Between the first and the last air on the ray, equiangular about `from`.
-      stretches_along(context.medium, beam, lit ? lit->t : infinity, stretches);
-      if (stretches.empty()) continue;
-      Interval air{infinity, 0.0};
-      for (const Stretch& s : stretches) {
-        air = {std::min(air.begin, s.range.begin), std::max(air.end, s.range.end)};
-      }
-      const double a = dot(from - beam.origin, beam.direction);
-      const double h = std::max(length(cross(from - beam.origin, beam.direction)), 1e-9);
-      const double angle0 = std::atan2(air.begin - a, h), angle1 = std::atan2(air.end - a, h);
-      const double t = a + h * std::tan(angle0 + random.next() * (angle1 - angle0));
-      if (!(t > air.begin && t < air.end)) continue;
-      const Vector place = beam.at(t), way = place - from;
-      const double squared = length_squared(way);
-      if (squared == 0.0) continue;
-      const Vector direction = way / std::sqrt(squared);
-      const Spectrum f = reflect(direction);
-      if (is_zero(f)) continue;
-      beside.set(context.medium, stretches, t);
-      const Spectrum scattered = beside.scattered(deflection_between(beam.direction, -direction));
-      if (is_zero(scattered)) continue;
-      const Spectrum extinction = extinction_at(stretches, t);
-      const Spectrum clear = unoccluded(from, place);
+      const std::optional<Shaft> shaft =
+          shaft_along(beam, lit ? lit->t : infinity, from, false, 0.5, random.next(), reflect);
+      if (!shaft) continue;
+      const Spectrum extinction = extinction_at(stretches, shaft->t);
+      const Spectrum clear = unoccluded(from, shaft->place);
       if (is_zero(clear)) continue;
-      const double rays = beams.density(place, beam.direction);
-      const double along = h / ((angle1 - angle0) * squared);  // density [1/m] of t: r^2 = h^2 + (t - a)^2
-      const double weight = shaft_weight(walk.sun_tries * rays, from, place, sun.direction,
-                                         density(direction) * mean(extinction * clear));
-      const Spectrum light = sun.radiance * transmittance(context.medium, {place, sun.direction}, infinity, shadow);
-      add(walk, f * scattered * light * clear * (weight / (walk.sun_tries * rays * along * squared)), scatterings + 1,
-          bounces);
+      const double rays = walk.sun_tries * beams.density(shaft->place, beam.direction);
+      const double weight =
+          shaft_weight(rays, from, shaft->place, sun.direction, density(shaft->direction) * mean(extinction * clear));
+      const Spectrum light =
+          sun.radiance * transmittance(context.medium, {shaft->place, sun.direction}, infinity, shadow);
+      add(walk, shaft->scattered * light * clear * (weight / (rays * shaft->density)), scatterings + 1, bounces);
     }
+  }
+
+  /// A place in the air that a ray of light passes on its way [0, end], and what of it goes on from there by `from`:
+  /// reflect at `from` times scattering at the place. density: [1/m] of the distance t, times the squared distance of
+  /// the place from `from`. Sets `stretches` to those of the ray. with_care: t is chosen by what arrives; otherwise
+  /// equiangularly about `from`.
+  struct Shaft {
+    double t, density;
+    Vector place, direction;  // direction: unit, from `from` to the place
+    Spectrum scattered;
+  };
+  template <class Reflect>
+  std::optional<Shaft> shaft_along(const Ray& beam, double end, const Vector& from, bool with_care, double choice,
+                                   double xi, Reflect reflect) {
+    stretches_along(context.medium, beam, end, stretches);
+    if (stretches.empty()) return std::nullopt;
+    Interval air{infinity, 0.0};
+    for (const Stretch& s : stretches) {
+      air = {std::min(air.begin, s.range.begin), std::max(air.end, s.range.end)};
+    }
+    const Vector start = from - beam.origin;
+    const double a = dot(start, beam.direction), h = length(cross(start, beam.direction));
+    const auto product = [&](double t) {
+      const Vector way = beam.at(t) - from;
+      const double squared = length_squared(way);
+      if (!with_care || squared == 0.0) return 0.0;
+      const Vector direction = way / std::sqrt(squared);
+      beside.set(context.medium, stretches, t);
+      return sum(reflect(direction) * beside.scattered(deflection_between(beam.direction, -direction)));
+    };
+    const DistanceTable::Sample at = DistanceTable(air, a, h, air.end, product).sample(choice, xi);
+    if (!(at.t > air.begin && at.t < air.end) || !(at.density > 0.0)) return std::nullopt;
+    Shaft shaft{at.t, 0.0, beam.at(at.t), {}, {}};
+    const Vector way = shaft.place - from;
+    const double squared = length_squared(way);
+    if (squared == 0.0) return std::nullopt;
+    shaft.density = at.density * squared;
+    shaft.direction = way / std::sqrt(squared);
+    const Spectrum f = reflect(shaft.direction);
+    if (is_zero(f)) return std::nullopt;
+    beside.set(context.medium, stretches, at.t);
+    shaft.scattered = f * beside.scattered(deflection_between(beam.direction, -shaft.direction));
+    if (is_zero(shaft.scattered)) return std::nullopt;
+    return shaft;
   }
 
   /// Density [1/sr] at `from` of the direction to a place on a surface that a ray of the sun hits, chosen as above.
@@ -341,24 +369,59 @@ struct PathTracer::State {
       if (own > 0.0 && !stretches.empty()) {
         segment.set(context.medium, stretches, around_lamp, end, f);
         const LampSegment::Sample at = segment.sample_one(lamps, lamp, xi[3], xi[4]);
-        const double weight = balance(own, density(around_lamp.direction)) / own;
+        const double other = density(around_lamp.direction);
+        const double weight = balance(own, other) / own *
+                              (1.0 - lamp_shaft_weight(walk.aim, lamps[lamp], from, around_lamp.at(at.t), own + other));
         add(walk, f * airlight(around_lamp, end, at) * weight, scatterings + 1, bounces);
       }
     }
-    const Ray beam{lamps[lamp].position, lamps[lamp].sample_direction(xi[5], random.next())};
+    const double xi_beam[4] = {random.next(), random.next(), random.next(), random.next()};
+    const Ray beam{lamps[lamp].position, walk.aim.beam(lamps[lamp], xi[5], xi_beam[0], xi_beam[1])};
+    const Spectrum intensity = lamps[lamp].intensity_toward(beam.direction);
     const auto lit = context.geometry.intersect(beam);
-    if (!lit) return;
-    const Vector way = lit->point - from;
+    if (lit) add_lit_surface(walk, from, scatterings, bounces, lamp, beam, *lit, intensity, reflect, density);
+    if (lamps[lamp].spot == nullptr) return;
+    const std::optional<Shaft> shaft =
+        shaft_along(beam, lit ? lit->t : infinity, from, true, xi_beam[2], xi_beam[3], reflect);
+    if (!shaft) return;
+    const Spectrum through = transmittance(stretches, shaft->t);
+    const double walks = tries * walk.aim.density(lamps[lamp], shaft->direction) + density(shaft->direction);
+    const double weight = lamp_shaft_weight(walk.aim, lamps[lamp], from, shaft->place, walks);
+    const double own = tries * walk.aim.chance(lamps[lamp]) * walk.aim.beam_density(lamps[lamp], beam.direction);
+    add(walk,
+        shaft->scattered * intensity * through * unoccluded(from, shaft->place) * (weight / (own * shaft->density)),
+        scatterings + 1, bounces);
+  }
+
+  /// The balance heuristic between two ways to a place in the air that a lamp lights and that lights `from`: along a
+  /// ray of the lamp, and from `from` in a direction of density `walks` [1/sr]; both equiangularly, so that what is
+  /// left of distances are the sines of the angles at which lamp and `from` see each other and the place. Those of half
+  /// the angles serve as well, and need no care at the ends: any function of the place weighs without bias. Rays of
+  /// point lights, which go everywhere, are not followed in the air.
+  static double lamp_shaft_weight(const LampAim& aim, const Lamp& lamp, const Vector& from, const Vector& place,
+                                  double walks) {
+    if (lamp.spot == nullptr || length_squared(lamp.position - from) == 0.0) return 0.0;
+    const Vector across = normalized(lamp.position - from);
+    const Vector travel = normalized(place - lamp.position);
+    const double here = length(across - normalized(place - from)), there = length(across + travel);
+    return balance(aim.tries() * aim.chance(lamp) * aim.beam_density(lamp, travel) * there, walks * here);
+  }
+
+  /// Light of a lamp that a surface where one of its rays ends reflects toward `from`.
+  template <class Reflect, class Density>
+  void add_lit_surface(const Walk& walk, const Vector& from, int scatterings, int bounces, std::size_t lamp,
+                       const Ray& beam, const Hit& lit, const Spectrum& intensity, Reflect reflect, Density density) {
+    const Vector way = lit.point - from;
     if (length_squared(way) == 0.0) return;
     const Vector direction = normalized(way);
     const Spectrum f = reflect(direction);
     if (is_zero(f)) return;
-    const Spectrum reflected = evaluate(surface_point(context.geometry, *lit), -direction, -beam.direction);
+    const Spectrum reflected = evaluate(surface_point(context.geometry, lit), -direction, -beam.direction);
     if (is_zero(reflected)) return;
-    const double own = tries * beam_density(walk, lamp, *lit, from);
-    const Spectrum light = lamps[lamp].intensity_toward(beam.direction) / (lit->t * lit->t);
-    const Spectrum through = transmittance(context.medium, beam, lit->t, shadow);
-    const Vector start = context.geometry.leave(lit->point, lit->geometric_normal);
+    const double own = walk.aim.tries() * beam_density(walk, lamp, lit, from);
+    const Spectrum light = intensity / (lit.t * lit.t);
+    const Spectrum through = transmittance(context.medium, beam, lit.t, shadow);
+    const Vector start = context.geometry.leave(lit.point, lit.geometric_normal);
     const double weight = balance(own, density(direction)) / own;
     add(walk, f * reflected * light * through * unoccluded(from, start) * weight, scatterings, bounces + 1);
   }
@@ -370,7 +433,8 @@ struct PathTracer::State {
     const double facing = std::fabs(dot(lit.geometric_normal, normalized(way)));
     const double incidence = std::fabs(dot(lit.geometric_normal, normalized(beam)));
     if (facing == 0.0) return 0.0;
-    const double per_area = walk.aim.chance(light) / light.solid_angle() * incidence / length_squared(beam);
+    const double per_area =
+        walk.aim.chance(light) * walk.aim.beam_density(light, normalized(beam)) * incidence / length_squared(beam);
     return per_area * length_squared(way) / facing;
   }
 
