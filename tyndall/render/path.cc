@@ -24,6 +24,7 @@ struct Walk {
   double direction_density = 0.0;  // with which ray.direction was sampled [1/sr]; 0: it was given (a camera ray)
   LampAim aim;                     // of the event that sampled it
   double sun_tries = 0.0;          // there: how often, in the mean, it followed a ray of each sun instead
+  double lobe_density = 0.0;       // there: with which a direction by the sun's lobe would have been ray.direction
   double first_promise = 0.0;      // PathLights::promise_at its first event
 
   int depth() const { return scatterings + bounces; }
@@ -198,11 +199,55 @@ struct PathTracer::State {
             walk.sun_tries > 0.0 ? walk.sun_tries * context.beams[i_sun].density(point, -light.direction) : 0.0;
         if (beams > 0.0) {
           const double chance = mean(extinction_at(stretches, flight.t) * transmittance(stretches, flight.t));
-          weight = 1.0 - shaft_weight(beams, walk.ray.origin, point, light.direction, walk.direction_density * chance);
+          weight -= shaft_weight(beams, walk.ray.origin, point, light.direction, walk.direction_density * chance);
         }
+        // (With beams there are no lobes.)
+        if (walk.lobe_density > 0.0) weight = balance(walk.direction_density, walk.lobe_density);
         add(walk, beta * f * light_there * weight, 1, 0);
       }
     }
+  }
+
+  /// Of a sun's light, at a point of the air where `scatter` is the mixture: with which density scattering toward the
+  /// sun's lobe takes a direction.
+  double sun_lobe(const Vector& next) const {
+    return scatter.density(deflection_between(normalized(context.lights.suns[0].direction), -next));
+  }
+
+  /// Another way to sunlight one event ahead, where laws are narrow: at the next collision the sun will scatter toward
+  /// the walk along few directions, seldom those that the walk took. Here one of those is taken, and the place sampled;
+  /// the balance heuristic against the walk's own choice leaves of both peaks the lower.
+  template <class Reflect, class Density>
+  void toward_sun_lobe(Walk& walk, const Vector& from, RandomStream& random, Reflect reflect, Density density) {
+    const double narrow = 10.0 * inverse_four_pi<double>();  // a forward value from which on this pays
+    walk.lobe_density = 0.0;
+    if (context.lights.suns.size() != 1 || !context.beams.empty()) return;
+    if (context.max_depth != 0 && walk.depth() + 1 >= context.max_depth) return;
+    if (scatter.density(Deflection<double>::from_ends(0.0, 2.0)) < narrow) return;
+    walk.lobe_density = 1.0;  // until the direction is known
+    const SunLight& sun = context.lights.suns[0];
+    random.align(4);
+    const double xi[2] = {random.next(), random.next()};
+    const Deflection<double> turn = scatter.sample(xi[0]);
+    const Ray ray{from, -normalized(around(Frame::around(normalized(sun.direction)), turn.mu, turn.sine(), xi[1]))};
+    const Spectrum f = reflect(ray.direction);
+    const double own = sun_lobe(ray.direction);
+    if (is_zero(f) || !(own > 0.0)) return;
+    const auto hit = context.geometry.intersect(ray);
+    const double end = hit ? hit->t : infinity;
+    stretches_along(context.medium, ray, end, stretches);
+    if (stretches.empty()) return;
+    const double xi_channel = random.next(), xi_depth = random.next();
+    const Flight flight = sample_flight(stretches, f, end, true, xi_channel, xi_depth);
+    if (!(flight.t < end)) return;
+    const Vector place = ray.at(flight.t);
+    beside.set(context.medium, stretches, flight.t);
+    const LightSample light = sample_sun(sun, random.next(), random.next());
+    const Spectrum scattered =
+        f * flight.weight * beside.scattered(deflection_between(-light.direction, -ray.direction));
+    const double weight = balance(own, density(ray.direction)) / own;
+    if (is_zero(scattered)) return;
+    add(walk, scattered * light.radiance * unoccluded({place, light.direction}, infinity) * weight, 2, 0);
   }
 
   void learn_of_sun(const Walk& walk, std::size_t sun, const Vector& place, const Vector& toward,
@@ -465,12 +510,14 @@ struct PathTracer::State {
     };
     toward_lamplight(walk, point, 1, 0, random, reflect, density_of);
     toward_sunlight(walk, point, 1, 0, random, reflect, density_of);
+    toward_sun_lobe(walk, point, random, reflect, density_of);
     const Deflection<double> d = scatter.sample(xi[0]);
     const double density = scatter.density(d);
     if (!(density > 0.0)) return false;
     walk.beta *= scatter.scattered(d) / density;
     walk.ray = {point, normalized(around(Frame::around(walk.ray.direction), d.mu, d.sine(), xi[1]))};
     walk.direction_density = density;
+    if (walk.lobe_density > 0.0) walk.lobe_density = sun_lobe(walk.ray.direction);
     ++walk.scatterings;
     if (walk.first_promise == 0.0) walk.first_promise = context.lights.promise_at(point);
     return !is_zero(walk.beta);
@@ -528,6 +575,7 @@ struct PathTracer::State {
     walk.beta *= surface.evaluate(in) / density;
     walk.ray = {start, in};
     walk.direction_density = density;
+    walk.lobe_density = 0.0;
     ++walk.bounces;
     if (walk.first_promise == 0.0) walk.first_promise = context.lights.promise_at(start);
     return !is_zero(walk.beta) && is_finite(walk.beta);
