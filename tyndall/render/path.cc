@@ -25,6 +25,7 @@ struct Walk {
   LampAim aim;                     // of the event that sampled it
   double sun_tries = 0.0;          // there: how often, in the mean, it followed a ray of each sun instead
   double lobe_density = 0.0;       // there: with which a direction by the sun's lobe would have been ray.direction
+  bool sought_sky = false;         // there: whether the surroundings were sampled, too
   double first_promise = 0.0;      // PathLights::promise_at its first event
 
   int depth() const { return scatterings + bounces; }
@@ -493,8 +494,9 @@ struct PathTracer::State {
     if (is_zero(walk.beta * scatter.scattering())) return false;
     // Light travels against the walk: toward the eye along -direction.
     const auto toward = [&](const Vector& to_light) { return deflection_between(-to_light, -walk.ray.direction); };
-    for (const auto& light :
-         {context.lights.sample_environment(random), context.lights.sample_emitter(point, random)}) {
+    walk.sought_sky = !context.lights.even_environment();
+    for (const auto& light : {walk.sought_sky ? context.lights.sample_environment(random) : LightSample{},
+                              context.lights.sample_emitter(point, random)}) {
       if (!(light.density > 0.0)) continue;
       const Deflection<double> d = toward(light.direction);
       const double weight = balance(light.density, scatter.density(d)) / light.density;
@@ -576,6 +578,7 @@ struct PathTracer::State {
     walk.ray = {start, in};
     walk.direction_density = density;
     walk.lobe_density = 0.0;
+    walk.sought_sky = true;
     ++walk.bounces;
     if (walk.first_promise == 0.0) walk.first_promise = context.lights.promise_at(start);
     return !is_zero(walk.beta) && is_finite(walk.beta);
@@ -583,7 +586,7 @@ struct PathTracer::State {
 
   /// The walk leaves for the surroundings. Only the eye may see the sun's disc: everything else samples it as a light.
   void leave_scene(const Walk& walk, bool sees_sun) {
-    const double density = walk.direction_density > 0.0 ? context.lights.environment_density(walk.ray.direction) : 0.0;
+    const double density = walk.sought_sky ? context.lights.environment_density(walk.ray.direction) : 0.0;
     const double weight = density > 0.0 ? balance(walk.direction_density, density) : 1.0;
     add(walk, walk.beta * context.lights.environment(walk.ray.direction) * weight, 0, 0);
     if (!sees_sun) return;
