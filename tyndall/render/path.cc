@@ -141,13 +141,14 @@ struct PathTracer::State {
 
   /// Russian roulette. By promise: throughput times the light to be had where the walk is, relative to where it began;
   /// its weight never grows beyond what that promise has lost. By depth (PathContext, follow_through): weights grow no
-  /// faster than the depth, so variance stays bounded wherever light is lost. Last resort against endless walks: after
-  /// 256 events, blindly.
+  /// faster than the depth, so variance stays bounded wherever light is lost. Last resort against endless walks: beyond
+  /// 256 events the weight grows as the square of the depth, so that those who got far are few, but bring no sparks.
   double survival_of(const Walk& walk) const {
     const double promise = largest(walk.beta) * context.lights.promise_at(walk.ray.origin) / walk.first_promise;
     const int depth = walk.depth();
     const bool doubled = depth >= 2 && (depth & (depth - 1)) == 0;
-    return std::clamp(4.0 * promise, 0.1, depth > 256 ? 0.98 : 1.0) * (doubled ? context.follow_through : 1.0);
+    return std::clamp(4.0 * promise, 0.1, depth > 256 ? 1.0 - 2.0 / depth : 1.0) *
+           (doubled ? context.follow_through : 1.0);
   }
 
   /// Light of point and spot lamps scattered toward the walk from its segment [0, end], whatever happens to the walk
