@@ -49,7 +49,41 @@ class LampAim {
     return chance(lamp) / (2.0 * std::numbers::pi * std::numbers::pi * sine);
   }
 
+  /// A direction [unit] for a ray of the lamp: evenly over all in which it shines, and half of them, where those have
+  /// the point among them, at an angle from it that is uniform, as direction() at the other end.
+  Vector beam(const Lamp& lamp, double choice, double xi1, double xi2) const {
+    if (choice >= around_share(lamp)) return lamp.sample_direction(xi1, xi2);
+    const double angle = widest(lamp) * xi1;
+    return normalized(around(Frame::around(normalized(from_ - lamp.position)), std::cos(angle), std::sin(angle), xi2));
+  }
+  /// Its density [1/sr], given the lamp. Directions in which the lamp does not shine count too.
+  double beam_density(const Lamp& lamp, const Vector& travel) const {
+    const double share = around_share(lamp), even = 1.0 / lamp.solid_angle();
+    // Rounding must not put a ray at the cone's edge out of it.
+    const bool shines = lamp.spot == nullptr ||
+                        dot(lamp.axis, travel) >= std::cos(lamp.spot->outer_angle * std::numbers::pi / 180.0) - 1e-9;
+    double density = shines ? (1.0 - share) * even : 0.0;
+    if (share > 0.0) {
+      const double most = widest(lamp);
+      const Deflection<double> d = deflection_between(normalized(from_ - lamp.position), travel);
+      const double sine = std::max(d.sine(), 1e-12);
+      if (std::atan2(sine, d.mu) <= most) density += share / (2.0 * std::numbers::pi * most * sine);
+    }
+    return density;
+  }
+
  private:
+  double around_share(const Lamp& lamp) const {
+    const Vector way = from_ - lamp.position;
+    if (lamp.spot == nullptr || length_squared(way) == 0.0) return 0.0;
+    const double cosine = std::cos(lamp.spot->outer_angle * std::numbers::pi / 180.0);
+    return dot(lamp.axis, way) >= cosine * length(way) ? 0.5 : 0.0;
+  }
+  /// The angle that half of the rays keep to.
+  static double widest(const Lamp& lamp) {
+    return std::min(std::numbers::pi, 2.0 * lamp.spot->outer_angle * std::numbers::pi / 180.0);
+  }
+
   /// Never zero, so that every lamp keeps a chance.
   double worth(const Lamp& lamp) const {
     const double distance = length(lamp.position - from_);

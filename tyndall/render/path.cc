@@ -10,8 +10,8 @@
 namespace tyndall {
 
 PathContext::PathContext(const Scene& scene, const Geometry& geometry, int max_depth, double follow_through)
-    : prepared_(new Prepared{scene, geometry, lower(scene.medium, scene.time), PathLights(scene), max_depth,
-                             follow_through}) {}
+    : prepared_(new Prepared{
+          scene, geometry, lower(scene.medium, scene.time), PathLights(scene), max_depth, follow_through, {}}) {}
 PathContext::~PathContext() = default;
 
 namespace {
@@ -23,6 +23,9 @@ struct Walk {
   int scatterings = 0, bounces = 0;
   double direction_density = 0.0;  // with which ray.direction was sampled [1/sr]; 0: it was given (a camera ray)
   LampAim aim;                     // of the event that sampled it
+  double sun_tries = 0.0;          // there: how often, in the mean, it followed a ray of each sun instead
+  double lobe_density = 0.0;       // there: with which a direction by the sun's lobe would have been ray.direction
+  bool sought_sky = false;         // there: whether the surroundings were sampled, too
   double first_promise = 0.0;      // PathLights::promise_at its first event
 
   int depth() const { return scatterings + bounces; }
@@ -45,6 +48,8 @@ struct PathTracer::State {
   std::vector<Stretch> stretches, shadow;
   ScatterPoint scatter, beside;  // at the collision; at a lamp's sample of the same segment
   LampSegment segment;
+  std::vector<SunLesson>* lessons = nullptr;  // where to write what is met of the suns, if anybody learns
+  std::uint64_t sun_tries = 0;                // how often it was looked for
 
   bool may_go_on(const Walk& walk) const { return context.max_depth == 0 || walk.depth() < context.max_depth; }
 
@@ -136,13 +141,14 @@ struct PathTracer::State {
 
   /// Russian roulette. By promise: throughput times the light to be had where the walk is, relative to where it began;
   /// its weight never grows beyond what that promise has lost. By depth (PathContext, follow_through): weights grow no
-  /// faster than the depth, so variance stays bounded wherever light is lost. Last resort against endless walks: after
-  /// 256 events, blindly.
+  /// faster than the depth, so variance stays bounded wherever light is lost. Last resort against endless walks: beyond
+  /// 256 events the weight grows as the square of the depth, so that those who got far are few, but bring no sparks.
   double survival_of(const Walk& walk) const {
     const double promise = largest(walk.beta) * context.lights.promise_at(walk.ray.origin) / walk.first_promise;
     const int depth = walk.depth();
     const bool doubled = depth >= 2 && (depth & (depth - 1)) == 0;
-    return std::clamp(4.0 * promise, 0.1, depth > 256 ? 0.98 : 1.0) * (doubled ? context.follow_through : 1.0);
+    return std::clamp(4.0 * promise, 0.1, depth > 256 ? 1.0 - 2.0 / depth : 1.0) *
+           (doubled ? context.follow_through : 1.0);
   }
 
   /// Light of point and spot lamps scattered toward the walk from its segment [0, end], whatever happens to the walk
@@ -161,8 +167,11 @@ struct PathTracer::State {
       const LampSegment::Sample at = segment.sample(context.lights.lamps, (i + offset) / count, xi_choice, xi);
       double weight = 1.0 / count;
       if (walk.direction_density > 0.0) {
-        const double other = walk.aim.tries() * walk.aim.density(context.lights.lamps[at.lamp], walk.ray.direction);
-        weight *= balance(walk.direction_density, other);
+        const Lamp& lamp = context.lights.lamps[at.lamp];
+        const double other = walk.aim.tries() * walk.aim.density(lamp, walk.ray.direction);
+        weight *= balance(walk.direction_density, other) *
+                  (1.0 - lamp_shaft_weight(walk.aim, lamp, walk.ray.origin, walk.ray.at(at.t),
+                                           walk.direction_density + other));
       }
       add(walk, walk.beta * airlight(walk.ray, end, at) * weight, 1, 0);
     }
@@ -179,18 +188,187 @@ struct PathTracer::State {
       const Flight flight = sample_flight(stretches, walk.beta, end, true, xi_channel, xi);
       if (!(flight.t < end)) continue;
       beside.set(context.medium, stretches, flight.t);
-      sunlight(walk, beside, walk.ray.at(flight.t), walk.beta * flight.weight / static_cast<double>(places), random);
+      const Vector point = walk.ray.at(flight.t);
+      const Spectrum beta = walk.beta * flight.weight / static_cast<double>(places);
+      for (std::size_t i_sun = 0; i_sun < context.lights.suns.size(); ++i_sun) {
+        const LightSample light = sample_sun(context.lights.suns[i_sun], random.next(), random.next());
+        const Spectrum f = beside.scattered(deflection_between(-light.direction, -walk.ray.direction));
+        if (is_zero(f)) continue;
+        const Spectrum light_there = light.radiance * unoccluded({point, light.direction}, infinity);
+        learn_of_sun(walk, i_sun, point, light.direction, beta * f * light_there);
+        double weight = 1.0;
+        const double beams =
+            walk.sun_tries > 0.0 ? walk.sun_tries * context.beams[i_sun].density(point, -light.direction) : 0.0;
+        if (beams > 0.0) {
+          const double chance = mean(extinction_at(stretches, flight.t) * transmittance(stretches, flight.t));
+          weight -= shaft_weight(beams, walk.ray.origin, point, light.direction, walk.direction_density * chance);
+        }
+        // (With beams there are no lobes.)
+        if (walk.lobe_density > 0.0) weight = balance(walk.direction_density, walk.lobe_density);
+        add(walk, beta * f * light_there * weight, 1, 0);
+      }
     }
   }
 
-  /// Adds the sunlight that a collision at `point` scatters toward the walk.
-  void sunlight(const Walk& walk, const ScatterPoint& at, const Vector& point, const Spectrum& beta,
-                RandomStream& random) {
-    for (const SunLight& sun : context.lights.suns) {
-      const LightSample light = sample_sun(sun, random.next(), random.next());
-      const Spectrum f = at.scattered(deflection_between(-light.direction, -walk.ray.direction));
-      if (!is_zero(f)) add(walk, beta * f * light.radiance * unoccluded({point, light.direction}, infinity), 1, 0);
+  /// Of a sun's light, at a point of the air where `scatter` is the mixture: with which density scattering toward the
+  /// sun's lobe takes a direction.
+  double sun_lobe(const Vector& next) const {
+    return scatter.density(deflection_between(normalized(context.lights.suns[0].direction), -next));
+  }
+
+  /// Another way to sunlight one event ahead, where laws are narrow: at the next collision the sun will scatter toward
+  /// the walk along few directions, seldom those that the walk took. Here one of those is taken, and the place sampled;
+  /// the balance heuristic against the walk's own choice leaves of both peaks the lower.
+  template <class Reflect, class Density>
+  void toward_sun_lobe(Walk& walk, const Vector& from, RandomStream& random, Reflect reflect, Density density) {
+    const double narrow = 10.0 * inverse_four_pi<double>();  // a forward value from which on this pays
+    walk.lobe_density = 0.0;
+    if (context.lights.suns.size() != 1 || !context.beams.empty()) return;
+    if (context.max_depth != 0 && walk.depth() + 1 >= context.max_depth) return;
+    if (scatter.density(Deflection<double>::from_ends(0.0, 2.0)) < narrow) return;
+    walk.lobe_density = 1.0;  // until the direction is known
+    const SunLight& sun = context.lights.suns[0];
+    random.align(4);
+    const double xi[2] = {random.next(), random.next()};
+    const Deflection<double> turn = scatter.sample(xi[0]);
+    const Ray ray{from, -normalized(around(Frame::around(normalized(sun.direction)), turn.mu, turn.sine(), xi[1]))};
+    const Spectrum f = reflect(ray.direction);
+    const double own = sun_lobe(ray.direction);
+    if (is_zero(f) || !(own > 0.0)) return;
+    const auto hit = context.geometry.intersect(ray);
+    const double end = hit ? hit->t : infinity;
+    stretches_along(context.medium, ray, end, stretches);
+    if (stretches.empty()) return;
+    const double xi_channel = random.next(), xi_depth = random.next();
+    const Flight flight = sample_flight(stretches, f, end, true, xi_channel, xi_depth);
+    if (!(flight.t < end)) return;
+    const Vector place = ray.at(flight.t);
+    beside.set(context.medium, stretches, flight.t);
+    const LightSample light = sample_sun(sun, random.next(), random.next());
+    const Spectrum scattered =
+        f * flight.weight * beside.scattered(deflection_between(-light.direction, -ray.direction));
+    const double weight = balance(own, density(ray.direction)) / own;
+    if (is_zero(scattered)) return;
+    add(walk, scattered * light.radiance * unoccluded({place, light.direction}, infinity) * weight, 2, 0);
+  }
+
+  void learn_of_sun(const Walk& walk, std::size_t sun, const Vector& place, const Vector& toward,
+                    const Spectrum& brought) {
+    if (lessons == nullptr || walk.depth() == 0) return;
+    ++sun_tries;
+    if (const double worth = sum(brought); worth > 0.0 && std::isfinite(worth)) {
+      lessons->push_back({static_cast<std::uint32_t>(sun), place, -toward, worth});
     }
+  }
+
+  /// The balance heuristic between two ways to a place in the air that lights `from`: along a ray of the sun that
+  /// passes there, equiangularly seen from `from` (`beams`: rays per area), and by a walk (`walks`: density [1/sr] of
+  /// the direction times that [1/m] of colliding there). The factor 1/r^2 of both is left out; so is how far the ray
+  /// goes, which the one side does not know: any function of the place weighs without bias.
+  static double shaft_weight(double beams, const Vector& from, const Vector& place, const Vector& toward,
+                             double walks) {
+    return balance(beams * length(cross(from - place, toward)) / std::numbers::pi, walks);
+  }
+
+  /// Another way to sunlight one event ahead, where walks seldom find it (SunBeams): along a ray of the sun, to the
+  /// surface it hits and to a place in the air that it lights. As toward_lamplight, with that function's arguments.
+  template <class Reflect, class Density>
+  void toward_sunlight(Walk& walk, const Vector& from, int scatterings, int bounces, RandomStream& random,
+                       Reflect reflect, Density density) {
+    walk.sun_tries = 0.0;
+    if (context.beams.empty() || (context.max_depth != 0 && walk.depth() + 1 >= context.max_depth)) return;
+    walk.sun_tries = walk.depth() < 2 ? 1.0 : 0.3;
+    if (walk.sun_tries < 1.0 && random.next() >= walk.sun_tries) return;
+    random.align(4);
+    for (std::size_t i = 0; i < context.beams.size(); ++i) {
+      const SunBeams& beams = context.beams[i];
+      if (!beams.useful()) continue;
+      const double xi[2] = {random.next(), random.next()};
+      const LightSample sun = sample_sun(context.lights.suns[i], random.next(), random.next());
+      const Ray beam{beams.sample(xi[0], xi[1]), -sun.direction};
+      const auto lit = context.geometry.intersect(beam);
+      if (lit) {
+        const Vector way = lit->point - from;
+        const double squared = length_squared(way);
+        const Vector direction = squared > 0.0 ? way / std::sqrt(squared) : Vector{};
+        const Spectrum f = squared > 0.0 ? reflect(direction) : Spectrum{};
+        const Spectrum reflected =
+            is_zero(f) ? f : evaluate(surface_point(context.geometry, *lit), -direction, sun.direction);
+        if (!is_zero(reflected)) {
+          const double own = walk.sun_tries * sunlit_density(i, *lit, beam.direction, from);
+          const Spectrum through = transmittance(context.medium, {lit->point, sun.direction}, infinity, shadow);
+          const Vector start = context.geometry.leave(lit->point, lit->geometric_normal);
+          const double weight = balance(own, density(direction)) / own;
+          add(walk, f * reflected * sun.radiance * through * unoccluded(from, start) * weight, scatterings,
+              bounces + 1);
+        }
+      }
+      const std::optional<Shaft> shaft =
+          shaft_along(beam, lit ? lit->t : infinity, from, false, 0.5, random.next(), reflect);
+      if (!shaft) continue;
+      const Spectrum extinction = extinction_at(stretches, shaft->t);
+      const Spectrum clear = unoccluded(from, shaft->place);
+      if (is_zero(clear)) continue;
+      const double rays = walk.sun_tries * beams.density(shaft->place, beam.direction);
+      const double weight =
+          shaft_weight(rays, from, shaft->place, sun.direction, density(shaft->direction) * mean(extinction * clear));
+      const Spectrum light =
+          sun.radiance * transmittance(context.medium, {shaft->place, sun.direction}, infinity, shadow);
+      add(walk, shaft->scattered * light * clear * (weight / (rays * shaft->density)), scatterings + 1, bounces);
+    }
+  }
+
+  /// A place in the air that a ray of light passes on its way [0, end], and what of it goes on from there by `from`:
+  /// reflect at `from` times scattering at the place. density: [1/m] of the distance t, times the squared distance of
+  /// the place from `from`. Sets `stretches` to those of the ray. with_care: t is chosen by what arrives; otherwise
+  /// equiangularly about `from`.
+  struct Shaft {
+    double t, density;
+    Vector place, direction;  // direction: unit, from `from` to the place
+    Spectrum scattered;
+  };
+  template <class Reflect>
+  std::optional<Shaft> shaft_along(const Ray& beam, double end, const Vector& from, bool with_care, double choice,
+                                   double xi, Reflect reflect) {
+    stretches_along(context.medium, beam, end, stretches);
+    if (stretches.empty()) return std::nullopt;
+    Interval air{infinity, 0.0};
+    for (const Stretch& s : stretches) {
+      air = {std::min(air.begin, s.range.begin), std::max(air.end, s.range.end)};
+    }
+    const Vector start = from - beam.origin;
+    const double a = dot(start, beam.direction), h = length(cross(start, beam.direction));
+    const auto product = [&](double t) {
+      const Vector way = beam.at(t) - from;
+      const double squared = length_squared(way);
+      if (!with_care || squared == 0.0) return 0.0;
+      const Vector direction = way / std::sqrt(squared);
+      beside.set(context.medium, stretches, t);
+      return sum(reflect(direction) * beside.scattered(deflection_between(beam.direction, -direction)));
+    };
+    const DistanceTable::Sample at = DistanceTable(air, a, h, air.end, product).sample(choice, xi);
+    if (!(at.t > air.begin && at.t < air.end) || !(at.density > 0.0)) return std::nullopt;
+    Shaft shaft{at.t, 0.0, beam.at(at.t), {}, {}};
+    const Vector way = shaft.place - from;
+    const double squared = length_squared(way);
+    if (squared == 0.0) return std::nullopt;
+    shaft.density = at.density * squared;
+    shaft.direction = way / std::sqrt(squared);
+    const Spectrum f = reflect(shaft.direction);
+    if (is_zero(f)) return std::nullopt;
+    beside.set(context.medium, stretches, at.t);
+    shaft.scattered = f * beside.scattered(deflection_between(beam.direction, -shaft.direction));
+    if (is_zero(shaft.scattered)) return std::nullopt;
+    return shaft;
+  }
+
+  /// Density [1/sr] at `from` of the direction to a place on a surface that a ray of the sun hits, chosen as above.
+  double sunlit_density(std::size_t sun, const Hit& lit, const Vector& travel, const Vector& from) const {
+    const Vector way = lit.point - from;
+    const double facing = std::fabs(dot(lit.geometric_normal, normalized(way)));
+    if (facing == 0.0) return 0.0;
+    return context.beams[sun].density(lit.point, travel) * std::fabs(dot(lit.geometric_normal, travel)) *
+           length_squared(way) / facing;
   }
 
   /// Light of a lamp scattered back along the ray of `stretches` at a sampled distance, over the sample's density.
@@ -238,24 +416,59 @@ struct PathTracer::State {
       if (own > 0.0 && !stretches.empty()) {
         segment.set(context.medium, stretches, around_lamp, end, f);
         const LampSegment::Sample at = segment.sample_one(lamps, lamp, xi[3], xi[4]);
-        const double weight = balance(own, density(around_lamp.direction)) / own;
+        const double other = density(around_lamp.direction);
+        const double weight = balance(own, other) / own *
+                              (1.0 - lamp_shaft_weight(walk.aim, lamps[lamp], from, around_lamp.at(at.t), own + other));
         add(walk, f * airlight(around_lamp, end, at) * weight, scatterings + 1, bounces);
       }
     }
-    const Ray beam{lamps[lamp].position, lamps[lamp].sample_direction(xi[5], random.next())};
+    const double xi_beam[4] = {random.next(), random.next(), random.next(), random.next()};
+    const Ray beam{lamps[lamp].position, walk.aim.beam(lamps[lamp], xi[5], xi_beam[0], xi_beam[1])};
+    const Spectrum intensity = lamps[lamp].intensity_toward(beam.direction);
     const auto lit = context.geometry.intersect(beam);
-    if (!lit) return;
-    const Vector way = lit->point - from;
+    if (lit) add_lit_surface(walk, from, scatterings, bounces, lamp, beam, *lit, intensity, reflect, density);
+    if (lamps[lamp].spot == nullptr) return;
+    const std::optional<Shaft> shaft =
+        shaft_along(beam, lit ? lit->t : infinity, from, true, xi_beam[2], xi_beam[3], reflect);
+    if (!shaft) return;
+    const Spectrum through = transmittance(stretches, shaft->t);
+    const double walks = tries * walk.aim.density(lamps[lamp], shaft->direction) + density(shaft->direction);
+    const double weight = lamp_shaft_weight(walk.aim, lamps[lamp], from, shaft->place, walks);
+    const double own = tries * walk.aim.chance(lamps[lamp]) * walk.aim.beam_density(lamps[lamp], beam.direction);
+    add(walk,
+        shaft->scattered * intensity * through * unoccluded(from, shaft->place) * (weight / (own * shaft->density)),
+        scatterings + 1, bounces);
+  }
+
+  /// The balance heuristic between two ways to a place in the air that a lamp lights and that lights `from`: along a
+  /// ray of the lamp, and from `from` in a direction of density `walks` [1/sr]; both equiangularly, so that what is
+  /// left of distances are the sines of the angles at which lamp and `from` see each other and the place. Those of half
+  /// the angles serve as well, and need no care at the ends: any function of the place weighs without bias. Rays of
+  /// point lights, which go everywhere, are not followed in the air.
+  static double lamp_shaft_weight(const LampAim& aim, const Lamp& lamp, const Vector& from, const Vector& place,
+                                  double walks) {
+    if (lamp.spot == nullptr || length_squared(lamp.position - from) == 0.0) return 0.0;
+    const Vector across = normalized(lamp.position - from);
+    const Vector travel = normalized(place - lamp.position);
+    const double here = length(across - normalized(place - from)), there = length(across + travel);
+    return balance(aim.tries() * aim.chance(lamp) * aim.beam_density(lamp, travel) * there, walks * here);
+  }
+
+  /// Light of a lamp that a surface where one of its rays ends reflects toward `from`.
+  template <class Reflect, class Density>
+  void add_lit_surface(const Walk& walk, const Vector& from, int scatterings, int bounces, std::size_t lamp,
+                       const Ray& beam, const Hit& lit, const Spectrum& intensity, Reflect reflect, Density density) {
+    const Vector way = lit.point - from;
     if (length_squared(way) == 0.0) return;
     const Vector direction = normalized(way);
     const Spectrum f = reflect(direction);
     if (is_zero(f)) return;
-    const Spectrum reflected = evaluate(surface_point(context.geometry, *lit), -direction, -beam.direction);
+    const Spectrum reflected = evaluate(surface_point(context.geometry, lit), -direction, -beam.direction);
     if (is_zero(reflected)) return;
-    const double own = tries * beam_density(walk, lamp, *lit, from);
-    const Spectrum light = lamps[lamp].intensity_toward(beam.direction) / (lit->t * lit->t);
-    const Spectrum through = transmittance(context.medium, beam, lit->t, shadow);
-    const Vector start = context.geometry.leave(lit->point, lit->geometric_normal);
+    const double own = walk.aim.tries() * beam_density(walk, lamp, lit, from);
+    const Spectrum light = intensity / (lit.t * lit.t);
+    const Spectrum through = transmittance(context.medium, beam, lit.t, shadow);
+    const Vector start = context.geometry.leave(lit.point, lit.geometric_normal);
     const double weight = balance(own, density(direction)) / own;
     add(walk, f * reflected * light * through * unoccluded(from, start) * weight, scatterings, bounces + 1);
   }
@@ -267,7 +480,8 @@ struct PathTracer::State {
     const double facing = std::fabs(dot(lit.geometric_normal, normalized(way)));
     const double incidence = std::fabs(dot(lit.geometric_normal, normalized(beam)));
     if (facing == 0.0) return 0.0;
-    const double per_area = walk.aim.chance(light) / light.solid_angle() * incidence / length_squared(beam);
+    const double per_area =
+        walk.aim.chance(light) * walk.aim.beam_density(light, normalized(beam)) * incidence / length_squared(beam);
     return per_area * length_squared(way) / facing;
   }
 
@@ -281,8 +495,9 @@ struct PathTracer::State {
     if (is_zero(walk.beta * scatter.scattering())) return false;
     // Light travels against the walk: toward the eye along -direction.
     const auto toward = [&](const Vector& to_light) { return deflection_between(-to_light, -walk.ray.direction); };
-    for (const auto& light :
-         {context.lights.sample_environment(random), context.lights.sample_emitter(point, random)}) {
+    walk.sought_sky = !context.lights.even_environment();
+    for (const auto& light : {walk.sought_sky ? context.lights.sample_environment(random) : LightSample{},
+                              context.lights.sample_emitter(point, random)}) {
       if (!(light.density > 0.0)) continue;
       const Deflection<double> d = toward(light.direction);
       const double weight = balance(light.density, scatter.density(d)) / light.density;
@@ -290,16 +505,22 @@ struct PathTracer::State {
       if (!is_zero(contribution)) add(walk, contribution * unoccluded({point, light.direction}, light.distance), 1, 0);
     }
     aim(walk, point, extinction_at(stretches, t));
-    toward_lamplight(
-        walk, point, 1, 0, random,
-        [&](const Vector& next) { return walk.beta * scatter.scattered(deflection_between(walk.ray.direction, next)); },
-        [&](const Vector& next) { return scatter.density(deflection_between(walk.ray.direction, next)); });
+    const auto reflect = [&](const Vector& next) {
+      return walk.beta * scatter.scattered(deflection_between(walk.ray.direction, next));
+    };
+    const auto density_of = [&](const Vector& next) {
+      return scatter.density(deflection_between(walk.ray.direction, next));
+    };
+    toward_lamplight(walk, point, 1, 0, random, reflect, density_of);
+    toward_sunlight(walk, point, 1, 0, random, reflect, density_of);
+    toward_sun_lobe(walk, point, random, reflect, density_of);
     const Deflection<double> d = scatter.sample(xi[0]);
     const double density = scatter.density(d);
     if (!(density > 0.0)) return false;
     walk.beta *= scatter.scattered(d) / density;
     walk.ray = {point, normalized(around(Frame::around(walk.ray.direction), d.mu, d.sine(), xi[1]))};
     walk.direction_density = density;
+    if (walk.lobe_density > 0.0) walk.lobe_density = sun_lobe(walk.ray.direction);
     ++walk.scatterings;
     if (walk.first_promise == 0.0) walk.first_promise = context.lights.promise_at(point);
     return !is_zero(walk.beta);
@@ -327,10 +548,15 @@ struct PathTracer::State {
               : 1.0;
       add(walk, lamp.reflected * unoccluded(start, position) * (weight / lamp.density), 0, 1);
     }
-    for (const SunLight& sun : context.lights.suns) {
-      const LightSample light = sample_sun(sun, random.next(), random.next());
+    for (std::size_t i = 0; i < context.lights.suns.size(); ++i) {
+      const LightSample light = sample_sun(context.lights.suns[i], random.next(), random.next());
       const Spectrum f = surface.evaluate(light.direction);
-      if (!is_zero(f)) add(walk, walk.beta * f * light.radiance * unoccluded({start, light.direction}, infinity), 0, 1);
+      if (is_zero(f)) continue;
+      const Spectrum brought = walk.beta * f * light.radiance * unoccluded({start, light.direction}, infinity);
+      learn_of_sun(walk, i, hit.point, light.direction, brought);
+      const double beams =
+          walk.sun_tries > 0.0 ? walk.sun_tries * sunlit_density(i, hit, -light.direction, walk.ray.origin) : 0.0;
+      add(walk, brought * (beams > 0.0 ? balance(walk.direction_density, beams) : 1.0), 0, 1);
     }
     for (const auto& light :
          {context.lights.sample_environment(random), context.lights.sample_emitter(start, random)}) {
@@ -342,15 +568,18 @@ struct PathTracer::State {
     }
     stretches_along(context.medium, {start, hit.geometric_normal}, infinity, stretches);
     aim(walk, start, extinction_at(stretches, 0.0));
-    toward_lamplight(
-        walk, start, 0, 1, random, [&](const Vector& next) { return walk.beta * surface.evaluate(next); },
-        [&](const Vector& next) { return surface.density(next); });
+    const auto reflect = [&](const Vector& next) { return walk.beta * surface.evaluate(next); };
+    const auto density_of = [&](const Vector& next) { return surface.density(next); };
+    toward_lamplight(walk, start, 0, 1, random, reflect, density_of);
+    toward_sunlight(walk, start, 0, 1, random, reflect, density_of);
     const Vector in = surface.sample(xi[2], xi[0], xi[1]);
     const double density = surface.density(in);
     if (!(density > 0.0)) return false;
     walk.beta *= surface.evaluate(in) / density;
     walk.ray = {start, in};
     walk.direction_density = density;
+    walk.lobe_density = 0.0;
+    walk.sought_sky = true;
     ++walk.bounces;
     if (walk.first_promise == 0.0) walk.first_promise = context.lights.promise_at(start);
     return !is_zero(walk.beta) && is_finite(walk.beta);
@@ -358,7 +587,7 @@ struct PathTracer::State {
 
   /// The walk leaves for the surroundings. Only the eye may see the sun's disc: everything else samples it as a light.
   void leave_scene(const Walk& walk, bool sees_sun) {
-    const double density = walk.direction_density > 0.0 ? context.lights.environment_density(walk.ray.direction) : 0.0;
+    const double density = walk.sought_sky ? context.lights.environment_density(walk.ray.direction) : 0.0;
     const double weight = density > 0.0 ? balance(walk.direction_density, density) : 1.0;
     add(walk, walk.beta * context.lights.environment(walk.ray.direction) * weight, 0, 0);
     if (!sees_sun) return;
@@ -368,6 +597,8 @@ struct PathTracer::State {
 
 PathTracer::PathTracer(const PathContext& context) : state_(new State(context.prepared())) {}
 PathTracer::~PathTracer() = default;
+void PathTracer::teach(std::vector<SunLesson>& lessons) { state_->lessons = &lessons; }
+std::uint64_t PathTracer::sun_tries() const { return state_->sun_tries; }
 PathSample PathTracer::trace(const Ray& ray, double distance, RandomStream& random, bool sees_sun) {
   return state_->trace(ray, distance, random, sees_sun);
 }

@@ -2,6 +2,7 @@
 // The integrator `path`: unbiased light transport of all orders in surfaces and media.
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "tyndall/medium/lowered_medium.h"
 #include "tyndall/sampling/random_stream.h"
@@ -9,6 +10,9 @@
 #include "tyndall/scene/scene.h"
 
 namespace tyndall {
+
+class CameraRays;
+struct SunLesson;
 
 /// What `path` prepares once per scene; read only afterwards, by any number of threads.
 class PathContext {
@@ -21,6 +25,11 @@ class PathContext {
   ~PathContext();
   PathContext(const PathContext&) = delete;
   PathContext& operator=(const PathContext&) = delete;
+
+  /// Sends a few paths through the camera's film and remembers where they met the sun (sun_beams.h): if they seldom do,
+  /// later ones look there too, and bring less noise and the same mean. `paths`: at most; few teach nothing. Same
+  /// arguments, same result, for any number of threads. Not while others trace.
+  void learn(const CameraRays& camera, const Film& film, std::uint64_t paths, std::uint64_t seed, int threads = 0);
 
   struct Prepared;
   const Prepared& prepared() const { return *prepared_; }
@@ -52,6 +61,11 @@ class PathTracer {
   /// surface; with a finite `distance` nothing at or beyond it is added, but what is there still lights the segment.
   /// sees_sun: add the disc of a sun that the ray itself looks at.
   PathSample trace(const Ray& ray, double distance, RandomStream& random, bool sees_sun = true);
+
+  /// From now on appends where its paths meet the suns, after at least one event, to `lessons`.
+  void teach(std::vector<SunLesson>& lessons);
+  /// How often it has looked for them, in vain or not.
+  std::uint64_t sun_tries() const;
 
  private:
   struct State;

@@ -104,6 +104,8 @@ class PathLights {
   /// power over distance; what shines everywhere is the same everywhere.
   double promise_at(const Vector& point) const;
 
+  /// Whether the surroundings shine alike from all sides: no direction is then better than what a phase function likes.
+  bool even_environment() const { return surroundings_ != nullptr && !surroundings_->panorama; }
   Spectrum environment(const Vector& direction) const;
   double environment_density(const Vector& direction) const;
   /// Radiance that a surface emits toward the side it was met from.

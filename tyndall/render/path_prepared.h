@@ -2,6 +2,7 @@
 // What a PathContext holds; for path*.cc only.
 #include "tyndall/render/path.h"
 #include "tyndall/render/path_lights.h"
+#include "tyndall/render/sun_beams.h"
 
 namespace tyndall {
 
@@ -12,6 +13,7 @@ struct PathContext::Prepared {
   PathLights lights;
   int max_depth;
   double follow_through;
+  std::vector<SunBeams> beams;  // one for each sun, or none: before PathContext::learn, and where they are of no use
 };
 
 }  // namespace tyndall

@@ -1,5 +1,6 @@
 #include "tyndall/render/sampler.h"
 
+#include <algorithm>
 #include <vector>
 
 #include "tyndall/render/camera.h"
@@ -13,6 +14,13 @@ namespace {
 SingleSettings picture_settings() { return {.tolerance = 1e-6, .sky_directions = 128}; }
 
 bool is_single(const RenderSettings& settings) { return settings.integrator == "single"; }
+
+/// Paths to learn from: as many as a sample for each pixel, within limits. Not more for a picture of more samples: what
+/// is learned must be the same when it is gone on with.
+std::uint64_t lessons(const Film& film) {
+  constexpr std::uint64_t least = 1u << 11, most = 1u << 16;
+  return std::clamp(static_cast<std::uint64_t>(film.width) * static_cast<std::uint64_t>(film.height), least, most);
+}
 
 /// One sample, exact but for its quadratures; spp says how finely pixels that see a lamp average their footprint.
 class SingleSampler : public Sampler {
@@ -34,6 +42,7 @@ class PathSampler : public Sampler {
         camera_(scene.camera, scene.film),
         width_(static_cast<std::uint64_t>(scene.film.width)),
         seed_(settings.seed) {
+    context_.learn(camera_, scene.film, lessons(scene.film), seed_, threads);
     for (int i = 0; i < threads; ++i) tracers_.push_back(std::make_unique<PathTracer>(context_));
   }
   void add(int x, int y, Pixel& pixel, int thread) override {

@@ -58,4 +58,25 @@ inline Scene busy_scene() {
   return scene;
 }
 
+/// A closed box 4 m wide, with air, that a sun shines into through a small window: nearly all of what a path sees there
+/// is sunlight it meets by luck.
+inline Scene dark_room() {
+  Scene scene;
+  const int wall = add_material(scene, {{0.7, 0.6, 0.5}}), floor = add_material(scene, {{0.5, 0.5, 0.6}}, {}, 0.3);
+  add_quad(scene, {-2, 0, 2}, {4, 0, 0}, {0, 0, -4}, floor);
+  add_quad(scene, {-2, 3, 2}, {4, 0, 0}, {0, 0, -4}, wall);
+  add_quad(scene, {-2, 0, -2}, {4, 0, 0}, {0, 3, 0}, wall);
+  add_quad(scene, {-2, 0, 2}, {4, 0, 0}, {0, 3, 0}, wall);
+  add_quad(scene, {2, 0, -2}, {0, 3, 0}, {0, 0, 4}, wall);
+  for (const double z : {-2.0, 0.3}) add_quad(scene, {-2, 0, z}, {0, 3, 0}, {0, 0, 1.7}, wall);
+  add_quad(scene, {-2, 0, -0.3}, {0, 1.5, 0}, {0, 0, 0.6}, wall);
+  add_quad(scene, {-2, 2.1, -0.3}, {0, 0.9, 0}, {0, 0, 0.6}, wall);
+  scene.suns.push_back({{1.0, -0.7, 0.2}, {{20.0, 18.0, 15.0}}, 0.5});
+  scene.medium = medium_of({{0.1, 0.15, 0.2}}, Spectrum::grey(0.01), HenyeyGreenstein<double>{0.6},
+                           {BoxProfile{{-2.5, -0.5, -2.5}, {2.5, 3.5, 2.5}}});
+  scene.camera = {{1.8, 1.5, 1.8}, {-1.0, 0.5, -2.0}, {0, 1, 0}, 60.0};
+  scene.film = {24, 16};
+  return scene;
+}
+
 }  // namespace tyndall::tests
