@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""contact_sheet.py OUT.png IN.png...: PNG pictures of one size (8 bits, RGB or RGBA) side by side on dark grey.
+"""contact_sheet.py [--columns N] OUT.png IN.png...: PNG pictures of one size (8 bits, RGB or RGBA) side by side on dark grey, in
+rows of N where stated.
 
 The standard library only, so that the demo asks nothing more of a machine than the program does.
 """
@@ -70,6 +71,9 @@ def write_png(path, width, rows):
 
 
 def main(arguments):
+    columns = 0
+    if len(arguments) > 1 and arguments[0] == "--columns":
+        columns, arguments = int(arguments[1]), arguments[2:]
     if len(arguments) < 2:
         print(__doc__.splitlines()[0], file=sys.stderr)
         return 2
@@ -79,10 +83,15 @@ def main(arguments):
         print("contact_sheet: the pictures differ in size", file=sys.stderr)
         return 2
     gap = bytes([GREY]) * (3 * GAP)
-    total = len(pictures) * (width + GAP) + GAP
+    columns = min(columns, len(pictures)) if columns > 0 else len(pictures)
+    total = columns * (width + GAP) + GAP
     margin = [bytes([GREY]) * (3 * total)] * GAP
-    rows = [gap + b"".join(rows[y] + gap for _, _, rows in pictures) for y in range(height)]
-    write_png(arguments[0], total, margin + rows + margin)
+    sheet = list(margin)
+    for first in range(0, len(pictures), columns):
+        row = pictures[first : first + columns]
+        empty = bytes([GREY]) * (3 * (columns - len(row)) * (width + GAP))
+        sheet += [gap + b"".join(rows[y] + gap for _, _, rows in row) + empty for y in range(height)] + margin
+    write_png(arguments[0], total, sheet)
     return 0
 
 
