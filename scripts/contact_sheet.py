@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Puts PNG pictures of one size (8 bits, RGB or RGBA) side by side on dark grey.
+"""PNG pictures of one size (8 bits, RGB or RGBA) side by side on dark grey, in rows where asked.
 
 The standard library only, so that the demo asks nothing more of a machine than the program does.
 """
@@ -84,17 +84,24 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("sheet", metavar="OUT.png", help="the sheet to write")
     parser.add_argument("pictures", metavar="IN.png", nargs="+", help="the pictures, from left to right")
+    parser.add_argument("--columns", type=int, default=0, help="pictures in a row (default: all)")
     arguments = parser.parse_args()
+    columns = arguments.columns
     pictures = [read_png(path) for path in arguments.pictures]
     width, height = pictures[0][:2]
     if any(picture[:2] != (width, height) for picture in pictures):
         print("contact_sheet: the pictures differ in size", file=sys.stderr)
         return 2
     gap = bytes([GREY]) * (3 * GAP)
-    total = len(pictures) * (width + GAP) + GAP
+    columns = min(columns, len(pictures)) if columns > 0 else len(pictures)
+    total = columns * (width + GAP) + GAP
     margin = [bytes([GREY]) * (3 * total)] * GAP
-    rows = [gap + b"".join(rows[y] + gap for _, _, rows in pictures) for y in range(height)]
-    write_png(arguments.sheet, total, margin + rows + margin)
+    sheet = list(margin)
+    for first in range(0, len(pictures), columns):
+        row = pictures[first : first + columns]
+        empty = bytes([GREY]) * (3 * (columns - len(row)) * (width + GAP))
+        sheet += [gap + b"".join(rows[y] + gap for _, _, rows in row) + empty for y in range(height)] + margin
+    write_png(arguments.sheet, total, sheet)
     return 0
 
 

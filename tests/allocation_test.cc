@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "tyndall/artist/medium_dials.h"
+#include "tyndall/artist/prepared_blend.h"
 #include "tyndall/medium/free_flight.h"
 #include "tyndall/medium/scatter.h"
 #include "tyndall/phase/law_as.h"
@@ -135,6 +135,79 @@ TEST(Allocation, ThereIsNoneWhenCoefficientsChangeFromFrameToFrame) {
     }
   });
   EXPECT_EQ(count, 0u);
+}
+
+/// Pairs that exercise every model, law with numbers, form of profile and table.
+std::vector<std::pair<MediumDials, MediumDials>> pairs_to_blend() {
+  Tabulated<double> table;
+  table.angles = {0.0, 60.0, 180.0};
+  table.values = {{{10.0, 9.0, 8.0}}, {{1.0, 1.0, 2.0}}, Spectrum::grey(0.5)};
+  const auto species = [&](double x) {
+    std::vector<StatedSpecies> out;
+    const auto add = [&](Law<double> law, std::optional<Profile> profile) {
+      StatedSpecies s;
+      s.name = "a species with a name too long for any short string " + std::to_string(out.size());
+      s.density = Visibility{Spectrum::grey(1000.0 * (1.0 + x))};
+      s.albedo = Spectrum::grey(0.5 + 0.4 * x);
+      s.phase = std::move(law);
+      s.profile = std::move(profile);
+      out.push_back(std::move(s));
+    };
+    add(Mixture<double>{{{1.0 + x, table},
+                         {2.0, Mixture<double>{{{1.0, MieHazy<double>{}}, {x, Schlick<double>{x}}}}}}},
+        LayerProfile{-1.0 - x, 2.0});
+    add(Droplet<double>{1.4 + 2.0 * x}, NoiseProfile{6.0, 4, x, 3, {1.0, 0.0, 0.0}});
+    add(table, BoxProfile{{-5.0, -5.0, -5.0}, {5.0 + x, 5.0, 5.0}, x});
+    add(Draine<double>{0.5 + 0.1 * x, 1.0}, SphereProfile{{x, 0.0, 0.0}, 9.0, 4.0 * x});
+    add(FournierForand<double>{1.1 + 0.1 * x, 3.5}, TentProfile{x, 10.0});
+    add(CornetteShanks<double>{x - 0.5}, std::nullopt);
+    return out;
+  };
+  const Background air{Air::standard, 1.0, ExponentialProfile{8000.0, 0.0}, 0.0, 300.0};
+  Background more_air = air;
+  more_air.exaggeration = 3.0;
+  std::vector<std::pair<MediumDials, MediumDials>> out;
+  const auto add = [&](const Conditions& a, const Conditions& b) {
+    out.push_back({{air, a, species(0.0)}, {more_air, b, species(0.9)}});
+  };
+  Simple haze{0.2, Visibility{Spectrum::grey(3000.0)}, Spectrum::grey(1.0), {}, ExponentialProfile{30.0, 0.0}, {}};
+  Simple fog{0.9, Visibility{Spectrum::grey(50.0)}, Spectrum::grey(0.9), Veil{}, ExponentialProfile{90.0, 1.0}, {}};
+  add(haze, fog);
+  fog.hold = Hold::visibility;
+  add(haze, fog);
+  TwoLobes lobes{0.3, 0.8, -0.2, MeanFreePath{Spectrum::grey(90.0)}, Spectrum::grey(1.0), {}, {}}, other = lobes;
+  other.r = 0.6, other.g1 = 0.1;
+  add(lobes, other);
+  const ExplicitLobe ahead{0.8, PlainExtinction{Spectrum::grey(1e-3)}, Spectrum::grey(1.0)};
+  add(TwoLobesExplicit{ahead, {}, {}, {}}, TwoLobesExplicit{{}, ahead, Veil{}, {}});
+  Measured drops;
+  drops.air = Particles::fog;
+  drops.visibility = 80.0;
+  Measured larger = drops;
+  larger.droplet_diameter = 30.0;
+  add(drops, larger);
+  return out;
+}
+
+TEST(Allocation, ThereIsNoneInPreparedBlends) {
+  std::vector<Stretch> stretches;
+  const Ray ray{{-60.0, 3.0, 0.0}, {1.0, 0.0, 0.0}};
+  for (const auto& [a, b] : pairs_to_blend()) {
+    for (const BlendHow how : {BlendHow::interpolate, BlendHow::mix, BlendHow::morph}) {
+      auto made = PreparedBlend::of(a, b, how);
+      ASSERT_TRUE(std::holds_alternative<PreparedBlend>(made));
+      PreparedBlend& blend = std::get<PreparedBlend>(made);
+      double before = -1.0;
+      const std::size_t count = allocations_of([&] {
+        for (int frame = 0; frame <= 24; ++frame) {
+          const double through = transmittance(blend.at(frame / 24.0, 0.1 * frame), ray, 120.0, stretches)[1];
+          EXPECT_TRUE(through > 0.0 && through < 1.0 && through != before) << frame;
+          before = through;
+        }
+      });
+      EXPECT_EQ(count, 0u) << static_cast<int>(how);
+    }
+  }
 }
 
 }  // namespace

@@ -69,8 +69,8 @@ inline Rayleigh<double> air_law(Air air, const Spectrum& wavelengths_nm) {
 
 /// Adds the background's species, air first, then ozone; those whose coefficients are zero are left out. Both are as
 /// thick as they are at the origin's altitude. Objects to channels at which no data exist.
-inline std::optional<Objection> compile(const Background& background, const Spectrum& wavelengths_nm,
-                                        std::vector<Species>& out) {
+template <class Out>
+std::optional<Objection> compile(const Background& background, const Spectrum& wavelengths_nm, Out& out) {
   if (!(background.altitude >= lowest_altitude && background.altitude <= highest_altitude)) {
     return Objection{"background/altitude", "an altitude of " + short_number(background.altitude) + " m",
                      "one from -5000 to 86000 m, where the standard atmosphere is defined"};
@@ -86,20 +86,12 @@ inline std::optional<Objection> compile(const Background& background, const Spec
     }
   }
   const double density = standard_air_at(background.altitude).relative_density * background.exaggeration;
-  add_unless_void({"air",
-                   air_scattering(background.air, wavelengths_nm) * density,
-                   {},
-                   air_law(background.air, wavelengths_nm),
-                   profiles_of(background.profile)},
-                  out);
+  add_species(out, "air", air_scattering(background.air, wavelengths_nm) * density, {},
+              air_law(background.air, wavelengths_nm), background.profile);
   if (background.ozone) {
     const Spectrum absorption = map(wavelengths_nm, [&](double nm) { return ozone_absorption(nm, *background.ozone); });
-    add_unless_void({"ozone",
-                     {},
-                     absorption * background.exaggeration,
-                     Isotropic<double>{},
-                     {TentProfile{ozone_centre - background.altitude, ozone_half_width}}},
-                    out);
+    add_species(out, "ozone", {}, absorption * background.exaggeration, Isotropic<double>{},
+                TentProfile{ozone_centre - background.altitude, ozone_half_width});
   }
   return std::nullopt;
 }

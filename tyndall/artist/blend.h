@@ -246,6 +246,15 @@ inline std::optional<Objection> align(std::vector<StatedSpecies>& a, std::vector
   return std::nullopt;
 }
 
+/// Makes two media alike() without changing what they mean, so that interpolate() can walk their numbers.
+inline std::optional<Objection> align(MediumDials& a, MediumDials& b, double meters_per_unit) {
+  if (auto objection = align_hold(a, b, meters_per_unit)) return objection;
+  align_measured(a, b, meters_per_unit);
+  if (auto objection = align(a.background, b.background)) return objection;
+  if (auto objection = align(a.conditions, b.conditions, meters_per_unit)) return objection;
+  return align(a.species, b.species, meters_per_unit);
+}
+
 }  // namespace blending
 
 /// The medium whose dials stand at t in [0, 1] between those of a and b: w, extinction (thickness and veil), lobes,
@@ -256,11 +265,7 @@ inline std::optional<Objection> align(std::vector<StatedSpecies>& a, std::vector
 inline Blend interpolate(MediumDials a, MediumDials b, double t, double meters_per_unit = 1.0) {
   if (t == 0.0) return a;
   if (t == 1.0) return b;
-  if (auto objection = blending::align_hold(a, b, meters_per_unit)) return *objection;
-  blending::align_measured(a, b, meters_per_unit);
-  if (auto objection = blending::align(a.background, b.background)) return *objection;
-  if (auto objection = blending::align(a.conditions, b.conditions, meters_per_unit)) return *objection;
-  if (auto objection = blending::align(a.species, b.species, meters_per_unit)) return *objection;
+  if (auto objection = blending::align(a, b, meters_per_unit)) return *objection;
   MediumDials out{between_dials(a.background, b.background, t), between_dials(a.conditions, b.conditions, t),
                   between_dials(a.species, b.species, t), a.channels};
   blending::keep_in_reach(out, meters_per_unit);

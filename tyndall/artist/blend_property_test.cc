@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <tuple>
 
 #include "tests/property.h"
 #include "tyndall/artist/keyframes.h"
+#include "tyndall/artist/prepared_blend.h"
 #include "tyndall/artist/random_dials_test.h"
 
 namespace tyndall {
@@ -127,7 +129,8 @@ Spectrum scattered_at(const Medium& medium, const Vector& p, double mu) {
 /// The same medium in numbers: coefficients and how it scatters, in several places.
 void same_medium(const Medium& got, const Medium& expected, double relative) {
   for (const Vector& p : places) {
-    const Spectrum scale = extinction_at(expected, p);
+    // A held visibility is a difference at the origin: elsewhere its rounding may be all that there is.
+    const Spectrum scale = extinction_at(expected, p) + 1e-3 * extinction_at(expected, {});
     near(scattering_at(got, p), scattering_at(expected, p), relative, scale);
     near(absorption_at(got, p), absorption_at(expected, p), relative, scale);
     for (const double mu : {-1.0, 0.0, 0.9}) {
@@ -176,22 +179,25 @@ void results_are_near_their_ends_close_to_them() {
     const auto [a, b] = any_pair(how);
     const Medium at_a = medium_of(a), at_b = medium_of(b);
     const Spectrum scale = extinction_at(at_a, {}) + extinction_at(at_b, {});
-    near(extinction_at(medium_of(blended(a, b, 1e-12, how)), {}), extinction_at(at_a, {}), 1e-8, scale);
-    near(extinction_at(medium_of(blended(a, b, 1.0 - 1e-12, how)), {}), extinction_at(at_b, {}), 1e-8, scale);
+    near(extinction_at(medium_of(blended(a, b, 1e-12, how)), {}), extinction_at(at_a, {}), 1e-5, scale);
+    near(extinction_at(medium_of(blended(a, b, 1.0 - 1e-12, how)), {}), extinction_at(at_b, {}), 1e-5, scale);
   }
 }
 
 void interpolated_dials_go_straight() {
-  const auto [a, b] = any_pair(BlendHow::interpolate);
+  Dice dice(*rc::gen::arbitrary<std::uint64_t>());
   const double t = any_share();
-  const Simple* x = a.conditions ? std::get_if<Simple>(&*a.conditions) : nullptr;
-  const Simple* y = b.conditions ? std::get_if<Simple>(&*b.conditions) : nullptr;
+  const auto simple_of = [](const MediumDials& dials) {
+    return dials.conditions ? std::get_if<Simple>(&*dials.conditions) : nullptr;
+  };
+  auto [a, b] = dice.like_pair();
+  while (simple_of(a) == nullptr) std::tie(a, b) = dice.like_pair();
+  const Simple *const x = simple_of(a), *const y = simple_of(b);
   const MediumDials dials = dials_of(interpolate(a, b, t));
-  if (a.background && b.background && a.background->air != Air::none && b.background->air != Air::none) {
-    near(dials.background->exaggeration, (1.0 - t) * a.background->exaggeration + t * b.background->exaggeration, 1e-14,
-         10.0);
+  if (a.background && a.background->air != Air::none) {
+    const double from = a.background->exaggeration, to = b.background->exaggeration;
+    near(dials.background->exaggeration, (1.0 - t) * from + t * to, 1e-14, from + to);
   }
-  RC_PRE(x != nullptr && y != nullptr && !x->hold && !y->hold);
   const auto& z = std::get<Simple>(*dials.conditions);
   near(z.w, (1.0 - t) * x->w + t * y->w, 1e-14, 1.0);
   const auto veil = [](const Simple& s) { return s.veil ? extinction_of(s.veil->density) : Spectrum{}; };
@@ -267,6 +273,48 @@ void blending_commutes_with_a_change_of_units() {
   }
 }
 
+/// Scattering per channel times the density of the mixture, of constants for rays.
+Spectrum scattered_at(const LoweredMedium& medium, const Vector& p, double mu) {
+  Spectrum total;
+  std::vector<Stretch> stretches;
+  stretches_along(medium, {p, {0.0, 0.0, 1.0}}, 1.0, stretches);
+  for (const Stretch& stretch : stretches) {
+    if (!(stretch.range.begin <= 0.01 && 0.01 < stretch.range.end)) continue;
+    double light = 0.0;
+    for (std::size_t i = 0; i < stretch.species->lobe_count; ++i) {
+      const auto& part = medium.lobes[stretch.species->first_lobe + i];
+      light += part.weight *
+               std::visit([&](const auto& l) { return l.density(Deflection<double>::from_mu(mu)); }, part.lobe);
+    }
+    total += stretch.species->scattering * (light * stretch.factor_at(0.01));
+  }
+  return total;
+}
+
+void prepared_blends_are_the_blends() {
+  for (const BlendHow how : every_how) {
+    const auto [a, b] = any_pair(how);
+    auto made = PreparedBlend::of(a, b, how);
+    if (const auto* objection = std::get_if<Objection>(&made)) RC_FAIL(objection->field + ": " + objection->found);
+    auto& prepared = std::get<PreparedBlend>(made);
+    for (const double t : {any_share(), 0.0, any_share(), 1.0}) {
+      const LoweredMedium expected = lower(medium_of(blended(a, b, t, how)), 3.0), &got = prepared.at(t, 3.0);
+      std::vector<Stretch> scratch;
+      for (const Vector& p : places) {
+        const Ray ray{p, normalized({0.6, 0.3, -0.7})};
+        stretches_along(expected, ray, 5.0, scratch);
+        const Spectrum depth = optical_depth(scratch, 5.0);
+        stretches_along(got, ray, 5.0, scratch);
+        near(optical_depth(scratch, 5.0), depth, 1e-9, depth + Spectrum::grey(1e-6));
+        for (const double mu : {-0.8, 0.3, 1.0}) {
+          const Spectrum light = scattered_at(expected, p, mu);
+          near(scattered_at(got, p, mu), light, 1e-9, light + depth + Spectrum::grey(1e-6));
+        }
+      }
+    }
+  }
+}
+
 #define BLEND_PROPERTY(Suite, name, property)             \
   TEST(Suite, name) { expect_property(usual, property); } \
   TEST(Suite##Soak, name) { expect_property(soak, property); }
@@ -275,6 +323,7 @@ BLEND_PROPERTY(AnyBlend, IsExactAtItsEnds, ends_are_exact)
 BLEND_PROPERTY(AnyBlend, IsAdmissible, results_are_admissible)
 BLEND_PROPERTY(AnyBlend, IsContinuousAtItsEnds, results_are_near_their_ends_close_to_them)
 BLEND_PROPERTY(AnyBlend, CommutesWithAChangeOfUnits, blending_commutes_with_a_change_of_units)
+BLEND_PROPERTY(AnyPreparedBlend, IsTheBlend, prepared_blends_are_the_blends)
 BLEND_PROPERTY(AnyInterpolation, GoesStraight, interpolated_dials_go_straight)
 BLEND_PROPERTY(AnyMix, IsTheWeightedSumEverywhere, mixing_is_the_weighted_sum)
 BLEND_PROPERTY(AnyMix, CommutesAndAssociates, mixing_commutes_and_associates)

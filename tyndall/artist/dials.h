@@ -121,13 +121,29 @@ inline Spectrum between(const Spectrum& a, const Spectrum& b, double t) {
   return out;
 }
 
+/// Makes every number of `out` that at t between those of a and b, all three alike(). Nothing allocates.
+template <class T>
+void set_between(T& out, const T& a, const T& b, double t) {
+  if constexpr (std::is_same_v<T, double>) {
+    out = between(a, b, t);
+  } else if constexpr (std::is_same_v<T, Spectrum>) {
+    for (std::size_t i = 0; i < channel_count; ++i) out[i] = between(a[i], b[i], t);
+  } else if constexpr (std::is_same_v<T, Vector>) {
+    out = {between(a.x, b.x, t), between(a.y, b.y, t), between(a.z, b.z, t)};
+  } else if constexpr (OptionalMember<T>) {
+    if (out) set_between(*out, *a, *b, t);
+  } else if constexpr (ListMember<T> || ArrayMember<T>) {
+    for (std::size_t i = 0; i < out.size(); ++i) set_between(out[i], a[i], b[i], t);
+  } else if constexpr (Choice<T>) {
+    std::visit([&]<class A>(A& chosen) { set_between(chosen, *std::get_if<A>(&a), *std::get_if<A>(&b), t); }, out);
+  } else if constexpr (Described<T> && !Whole<T>) {
+    for_each_field<T>([&](const auto& field) { set_between(out.*field.member, a.*field.member, b.*field.member, t); });
+  }
+}
 /// Every number of two values that are alike() at t between them.
 template <class T>
 T between_dials(T a, const T& b, double t) {
-  const std::vector<double> other = numbers_of(b);
-  std::size_t i = 0;
-  for_each_number(a, FieldFacts{}, "",
-                  [&](double& x, const FieldFacts&, const std::string&) { x = between(x, other[i++], t); });
+  set_between(a, T(a), b, t);
   return a;
 }
 

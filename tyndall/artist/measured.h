@@ -111,7 +111,8 @@ inline double stated_extinction_at_550(const Measured& m, const Surroundings& ot
 }
 
 /// Adds the model's species; objects to a visibility that what else is in the medium leaves no room for.
-inline std::optional<Objection> compile(const Measured& m, const Surroundings& others, std::vector<Species>& out) {
+template <class Out>
+std::optional<Objection> compile(const Measured& m, const Surroundings& others, Out& out) {
   if (auto objection = objection_to(m)) return objection;
   const double at_origin = stated_extinction_at_550(m, others);
   if (at_origin < 0.0) {
@@ -127,16 +128,17 @@ inline std::optional<Objection> compile(const Measured& m, const Surroundings& o
     return Objection{"profile", "a profile that leaves nothing at the origin, where the air was measured",
                      "one that covers the origin"};
   }
-  Species species{std::string(word_of(m.air)), {}, {}, law_of(m.air, m.diameter()), profiles_of(m.profile)};
-  if (m.mean_cosine) species.phase = HenyeyGreenstein<double>{*m.mean_cosine};
+  Spectrum scattering, absorption;
   for (std::size_t c = 0; c < channel_count; ++c) {
     const double nm = others.wavelengths_nm[c];
     const double extinction = at_origin / here * relative_extinction(m.air, m.diameter(), m.angstrom_exponent, nm);
     const double absorbed = m.albedo ? 1.0 - (*m.albedo)[c] : absorbed_share(m.air, m.diameter(), nm);
-    species.absorption[c] = extinction * absorbed;
-    species.scattering[c] = extinction - species.absorption[c];
+    absorption[c] = extinction * absorbed;
+    scattering[c] = extinction - absorption[c];
   }
-  add_unless_void(std::move(species), out);
+  const Law<double> phase =
+      m.mean_cosine ? Law<double>{HenyeyGreenstein<double>{*m.mean_cosine}} : law_of(m.air, m.diameter());
+  add_species(out, word_of(m.air), scattering, absorption, phase, m.profile);
   return std::nullopt;
 }
 

@@ -78,6 +78,88 @@ inline void pair_up(std::vector<StatedSpecies>& a, std::vector<StatedSpecies>& b
   b = std::move(right);
 }
 
+/// Two media made ready to be morphed: what corresponds stands side by side. set() then computes any share of the way
+/// without allocating.
+struct MorphPair {
+  std::vector<StatedSpecies> left, right;
+  std::vector<bool> elsewhere;  // not at the origin, on either side
+  std::optional<Background> background;
+  double exaggeration_a = 1.0, exaggeration_b = 1.0;
+  Spectrum air_a, air_b;  // at the origin, where it is morphed by itself
+
+  /// Dials of which set() changes numbers only.
+  MediumDials skeleton(const std::optional<ChannelTag>& channels) const {
+    return {background, std::nullopt, left, channels};
+  }
+  void set(double t, MediumDials& out) const;
+};
+
+inline std::variant<MorphPair, Objection> morph_pair(MediumDials a, MediumDials b) {
+  order_lobes(a.conditions);
+  order_lobes(b.conditions);
+  MorphPair out;
+  const Spectrum air_a = air_at_origin(a), air_b = air_at_origin(b);
+  const bool one_air = !is_zero(air_a) && !is_zero(air_b) && differ_in_exaggeration_only(*a.background, *b.background);
+  if (one_air) {
+    out.background = a.background;
+    out.exaggeration_a = a.background->exaggeration;
+    out.exaggeration_b = b.background->exaggeration;
+    out.air_a = air_a;
+    out.air_b = air_b;
+  }
+  auto from = as_species(a, one_air), to = as_species(b, one_air);
+  for (const auto* side : {&from, &to}) {
+    if (const auto* objection = std::get_if<Objection>(side)) return *objection;
+  }
+  out.left = std::move(*std::get_if<0>(&from));
+  out.right = std::move(*std::get_if<0>(&to));
+  pair_up(out.left, out.right);
+  for (std::size_t i = 0; i < out.left.size(); ++i) {
+    out.elsewhere.push_back(is_elsewhere(out.left[i].profile) && is_elsewhere(out.right[i].profile));
+  }
+  return out;
+}
+
+inline void MorphPair::set(double t, MediumDials& out) const {
+  Spectrum air;
+  if (background) {
+    out.background->exaggeration = between_logarithms(exaggeration_a, exaggeration_b, t);
+    air = air_a * (out.background->exaggeration / exaggeration_a);
+  }
+  for (const bool apart : {false, true}) {
+    const auto counts = [&](std::size_t i) { return elsewhere[i] == apart; };
+    const Spectrum rest_a = total_of(left, counts), rest_b = total_of(right, counts);
+    for (std::size_t i = 0; i < left.size(); ++i) {
+      if (!counts(i)) continue;
+      StatedSpecies& s = out.species[i];
+      set_between(s.phase, left[i].phase, right[i].phase, t);
+      set_between(s.profile, left[i].profile, right[i].profile, t);
+      for (std::size_t c = 0; c < channel_count; ++c) {
+        const bool shares = rest_a[c] > 0.0 && rest_b[c] > 0.0;
+        const double by_a = shares ? rest_a[c] : 1.0, by_b = shares ? rest_b[c] : 1.0;
+        (*s.scattering)[c] = between((*left[i].scattering)[c] / by_a, (*right[i].scattering)[c] / by_b, t);
+        (*s.absorption)[c] = between((*left[i].absorption)[c] / by_a, (*right[i].absorption)[c] / by_b, t);
+      }
+    }
+    // Bring the sum to where the logarithm puts it. With air that is morphed by itself the rest is never negative: a
+    // sum of geometric means is at most the geometric mean of the sums (Hoelder).
+    const Spectrum composed = total_of(out.species, counts);
+    const bool with_air = background && !apart;
+    const Spectrum whole_a = rest_a + (with_air ? air_a : Spectrum{}),
+                   whole_b = rest_b + (with_air ? air_b : Spectrum{});
+    for (std::size_t c = 0; c < channel_count; ++c) {
+      if (!(whole_a[c] > 0.0) || !(whole_b[c] > 0.0) || !(composed[c] > 0.0)) continue;
+      const double whole = between_logarithms(whole_a[c], whole_b[c], t);
+      const double target = std::max(0.0, whole - (with_air ? air[c] : 0.0));
+      for (std::size_t i = 0; i < left.size(); ++i) {
+        if (!counts(i)) continue;
+        (*out.species[i].scattering)[c] *= target / composed[c];
+        (*out.species[i].absorption)[c] *= target / composed[c];
+      }
+    }
+  }
+}
+
 }  // namespace blending
 
 /// At t in [0, 1] between a and b: the logarithm of the extinction at the origin is linear in t in every channel, the
@@ -88,61 +170,12 @@ inline void pair_up(std::vector<StatedSpecies>& a, std::vector<StatedSpecies>& b
 inline Blend morph(MediumDials a, MediumDials b, double t) {
   if (t == 0.0) return a;
   if (t == 1.0) return b;
-  blending::order_lobes(a.conditions);
-  blending::order_lobes(b.conditions);
-  const Spectrum air_a = blending::air_at_origin(a), air_b = blending::air_at_origin(b);
-  const bool one_air = !is_zero(air_a) && !is_zero(air_b) && differ_in_exaggeration_only(*a.background, *b.background);
-  auto from = blending::as_species(a, one_air), to = blending::as_species(b, one_air);
-  for (const auto* side : {&from, &to}) {
-    if (const auto* objection = std::get_if<Objection>(side)) return *objection;
-  }
-  auto &left = std::get<0>(from), &right = std::get<0>(to);
-  blending::pair_up(left, right);
-
-  MediumDials out;
-  out.channels = a.channels;
-  Spectrum air;
-  if (one_air) {
-    out.background = a.background;
-    out.background->exaggeration =
-        blending::between_logarithms(a.background->exaggeration, b.background->exaggeration, t);
-    air = blending::air_at_origin(out);
-  }
-  out.species = left;
-  for (const bool elsewhere : {false, true}) {
-    const auto counts = [&](std::size_t i) {
-      return elsewhere == (blending::is_elsewhere(left[i].profile) && blending::is_elsewhere(right[i].profile));
-    };
-    const Spectrum rest_a = blending::total_of(left, counts), rest_b = blending::total_of(right, counts);
-    for (std::size_t i = 0; i < left.size(); ++i) {
-      if (!counts(i)) continue;
-      StatedSpecies& s = out.species[i];
-      s.phase = between_dials(left[i].phase, right[i].phase, t);
-      s.profile = between_dials(left[i].profile, right[i].profile, t);
-      for (std::size_t c = 0; c < channel_count; ++c) {
-        const bool shares = rest_a[c] > 0.0 && rest_b[c] > 0.0;
-        const double by_a = shares ? rest_a[c] : 1.0, by_b = shares ? rest_b[c] : 1.0;
-        (*s.scattering)[c] = between((*left[i].scattering)[c] / by_a, (*right[i].scattering)[c] / by_b, t);
-        (*s.absorption)[c] = between((*left[i].absorption)[c] / by_a, (*right[i].absorption)[c] / by_b, t);
-      }
-    }
-    // Bring the sum to where the logarithm puts it. With air that is morphed by itself the rest is never negative: a
-    // sum of geometric means is at most the geometric mean of the sums (Hoelder).
-    const Spectrum composed = blending::total_of(out.species, counts);
-    const bool with_air = one_air && !elsewhere;
-    const Spectrum whole_a = rest_a + (with_air ? air_a : Spectrum{}),
-                   whole_b = rest_b + (with_air ? air_b : Spectrum{});
-    for (std::size_t c = 0; c < channel_count; ++c) {
-      if (!(whole_a[c] > 0.0) || !(whole_b[c] > 0.0) || !(composed[c] > 0.0)) continue;
-      const double whole = blending::between_logarithms(whole_a[c], whole_b[c], t);
-      const double target = std::max(0.0, whole - (with_air ? air[c] : 0.0));
-      for (std::size_t i = 0; i < left.size(); ++i) {
-        if (!counts(i)) continue;
-        (*out.species[i].scattering)[c] *= target / composed[c];
-        (*out.species[i].absorption)[c] *= target / composed[c];
-      }
-    }
-  }
+  const std::optional<ChannelTag> channels = a.channels;
+  const auto made = blending::morph_pair(std::move(a), std::move(b));
+  const auto* pair = std::get_if<blending::MorphPair>(&made);
+  if (pair == nullptr) return *std::get_if<Objection>(&made);
+  MediumDials out = pair->skeleton(channels);
+  pair->set(t, out);
   return out;
 }
 

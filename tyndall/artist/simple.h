@@ -61,7 +61,8 @@ inline double rest_in_green(const Simple& simple, const Spectrum& others, double
 /// Adds the model's species. The others' extinction at the origin counts only when visibility is held: then thickness
 /// is multiplied by the one factor that gives the finished medium, at the origin and in the green channel, the
 /// extinction that `thickness` states. Objects where the rest alone is thicker than that.
-inline std::optional<Objection> compile(const Simple& simple, const Surroundings& others, std::vector<Species>& out) {
+template <class Out>
+std::optional<Objection> compile(const Simple& simple, const Surroundings& others, Out& out) {
   Spectrum thickness = extinction_of(simple.thickness);
   HazyMurky k = simple_strengths(simple.w);
   if (simple.hold == Hold::visibility) {
@@ -84,8 +85,8 @@ inline std::optional<Objection> compile(const Simple& simple, const Surroundings
     thickness *= std::fmax(0.0, stated - rest) / (stated * here);
     k = simple_shares(simple.w);
   }
-  add_unless_void(species_of("hazy", k.hazy * thickness, simple.albedo, MieHazy<double>{}, simple.profile), out);
-  add_unless_void(species_of("murky", k.murky * thickness, simple.albedo, MieMurky<double>{}, simple.profile), out);
+  add_species_of(out, "hazy", k.hazy * thickness, simple.albedo, MieHazy<double>{}, simple.profile);
+  add_species_of(out, "murky", k.murky * thickness, simple.albedo, MieMurky<double>{}, simple.profile);
   compile(simple.veil, simple.profile, out);
   return std::nullopt;
 }

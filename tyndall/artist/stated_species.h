@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tyndall/artist/density.h"
+#include "tyndall/medium/lowered_frame.h"
 #include "tyndall/medium/medium.h"
 #include "tyndall/number/demand.h"
 #include "tyndall/number/described.h"
@@ -108,26 +109,30 @@ inline std::vector<Profile> profiles_of(const std::optional<Profiles>& profile) 
 }
 
 /// Adds a species unless it does nothing to light.
-inline void add_unless_void(Species species, std::vector<Species>& out) {
-  if (!is_zero(species.extinction())) out.push_back(std::move(species));
+inline void add_species(std::vector<Species>& out, std::string_view name, const Spectrum& scattering,
+                        const Spectrum& absorption, const Law<double>& phase, const std::optional<Profiles>& profile) {
+  if (is_zero(scattering + absorption)) return;
+  out.push_back({std::string(name), scattering, absorption, phase, profiles_of(profile)});
+}
+/// The same into a frame, where what does nothing keeps its place.
+inline void add_species(LoweredFrame& out, std::string_view /*name*/, const Spectrum& scattering,
+                        const Spectrum& absorption, const Law<double>& phase, const std::optional<Profiles>& profile) {
+  out.put(scattering, absorption, phase, profile);
+}
+/// Adds a species of this extinction [1/m] and albedo to either.
+template <class Out>
+void add_species_of(Out& out, std::string_view name, const Spectrum& extinction, const Spectrum& albedo,
+                    const Law<double>& phase, const std::optional<Profiles>& profile) {
+  add_species(out, name, extinction * albedo, extinction * (Spectrum::grey(1.0) - albedo), phase, profile);
 }
 
-/// A species of this extinction [1/m] and albedo.
-inline Species species_of(std::string name, const Spectrum& extinction, const Spectrum& albedo, Law<double> phase,
-                          const std::optional<Profiles>& profile) {
-  return {std::move(name), extinction * albedo, extinction * (Spectrum::grey(1.0) - albedo), std::move(phase),
-          profiles_of(profile)};
-}
-
-inline void compile(const StatedSpecies& s, std::vector<Species>& out) {
-  Species species{s.name, {}, {}, s.phase, profiles_of(s.profile)};
+template <class Out>
+void compile(const StatedSpecies& s, Out& out) {
   if (s.density) {
-    species = species_of(s.name, extinction_of(*s.density), s.albedo.value_or(Spectrum::grey(1.0)), s.phase, s.profile);
+    add_species_of(out, s.name, extinction_of(*s.density), s.albedo.value_or(Spectrum::grey(1.0)), s.phase, s.profile);
   } else {
-    species.scattering = s.scattering.value_or(Spectrum{});
-    species.absorption = s.absorption.value_or(Spectrum{});
+    add_species(out, s.name, s.scattering.value_or(Spectrum{}), s.absorption.value_or(Spectrum{}), s.phase, s.profile);
   }
-  add_unless_void(std::move(species), out);
 }
 
 }  // namespace tyndall

@@ -39,15 +39,13 @@ struct TwoLobes {
 };
 
 /// Adds the model's species; what else is in the medium does not matter to it.
-inline std::optional<Objection> compile(const TwoLobes& lobes, const Surroundings& /*others*/,
-                                        std::vector<Species>& out) {
+template <class Out>
+std::optional<Objection> compile(const TwoLobes& lobes, const Surroundings& /*others*/, Out& out) {
   const Spectrum thickness = extinction_of(lobes.thickness);
-  add_unless_void(species_of("first lobe", (1.0 - lobes.r) * thickness, lobes.albedo,
-                             HenyeyGreenstein<double>{lobes.g1}, lobes.profile),
-                  out);
-  add_unless_void(
-      species_of("second lobe", lobes.r * thickness, lobes.albedo, HenyeyGreenstein<double>{lobes.g2}, lobes.profile),
-      out);
+  add_species_of(out, "first lobe", (1.0 - lobes.r) * thickness, lobes.albedo, HenyeyGreenstein<double>{lobes.g1},
+                 lobes.profile);
+  add_species_of(out, "second lobe", lobes.r * thickness, lobes.albedo, HenyeyGreenstein<double>{lobes.g2},
+                 lobes.profile);
   compile(lobes.veil, lobes.profile, out);
   return std::nullopt;
 }

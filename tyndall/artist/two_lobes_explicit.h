@@ -46,12 +46,11 @@ struct TwoLobesExplicit {
 };
 
 /// Adds the model's species; what else is in the medium does not matter to it.
-inline std::optional<Objection> compile(const TwoLobesExplicit& lobes, const Surroundings& /*others*/,
-                                        std::vector<Species>& out) {
+template <class Out>
+std::optional<Objection> compile(const TwoLobesExplicit& lobes, const Surroundings& /*others*/, Out& out) {
   const auto add = [&](std::string_view name, const ExplicitLobe& lobe) {
-    add_unless_void(species_of(std::string(name), extinction_of(lobe.thickness), lobe.albedo,
-                               HenyeyGreenstein<double>{lobe.g}, lobes.profile),
-                    out);
+    add_species_of(out, name, extinction_of(lobe.thickness), lobe.albedo, HenyeyGreenstein<double>{lobe.g},
+                   lobes.profile);
   };
   add("first lobe", lobes.first);
   add("second lobe", lobes.second);

@@ -22,11 +22,9 @@ struct Veil {
   }
 };
 
-inline void compile(const std::optional<Veil>& veil, const std::optional<Profiles>& profile,
-                    std::vector<Species>& out) {
-  if (veil) {
-    add_unless_void(species_of("veil", extinction_of(veil->density), veil->albedo, Isotropic<double>{}, profile), out);
-  }
+template <class Out>
+void compile(const std::optional<Veil>& veil, const std::optional<Profiles>& profile, Out& out) {
+  if (veil) add_species_of(out, "veil", extinction_of(veil->density), veil->albedo, Isotropic<double>{}, profile);
 }
 
 /// A remark where a thickness is stated by a visibility that even clear air does not have, in green. In SI.

@@ -19,7 +19,8 @@ struct CornetteShanks {
     return std::tuple{Field{"g", &CornetteShanks::g, Range{-1.0, 1.0, true, true}, "1",
                             "Lengthening of the lobe: above 0 forward, below 0 backward.", Scaling::none, true}};
   }
-  LobeSum<T> lower() const { return {{{T(1.0), DraineLobe<T>::of(g, T(1.0))}}}; }
+  DraineLobe<T> lobe() const { return DraineLobe<T>::of(g, T(1.0)); }
+  LobeSum<T> lower() const { return {{{T(1.0), lobe()}}}; }
 };
 
 }  // namespace tyndall

@@ -22,7 +22,8 @@ struct Draine {
                       Field{"alpha", &Draine::alpha, Range{0.0, 1e6}, "1",
                             "Weight of the squared cosine: 0 Henyey-Greenstein, 1 Cornette-Shanks."}};
   }
-  LobeSum<T> lower() const { return {{{T(1.0), DraineLobe<T>::of(g, alpha)}}}; }
+  DraineLobe<T> lobe() const { return DraineLobe<T>::of(g, alpha); }
+  LobeSum<T> lower() const { return {{{T(1.0), lobe()}}}; }
 };
 
 }  // namespace tyndall

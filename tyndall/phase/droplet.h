@@ -26,6 +26,15 @@ struct Droplet {
   }
 
   LobeSum<T> lower() const {
+    LobeSum<T> out;
+    for_each_lobe([&](const T& weight, const Lobe<T>& lobe) { out.push_back({weight, lobe}); });
+    return out;
+  }
+  /// At most this many lobes.
+  static constexpr std::size_t most_lobes = 4;
+  /// Calls put(weight, lobe) for each lobe of lower().
+  template <class Put>
+  void for_each_lobe(Put&& put) const {
     constexpr std::array borders{0.1, 1.5, 5.0};
     // The nearest border decides which two fits are blended.
     const T d = named("diameter", diameter);
@@ -35,21 +44,19 @@ struct Droplet {
     const T over = named("over", x * x * (T(3.0) - T(2.0) * x));
     const Fit tiny = tiny_fit(min(d, T(0.11))), small = small_fit(max(T(0.09), min(d, T(1.65)))),
               middle = middle_fit(max(T(1.35), min(d, T(5.5)))), large = large_fit(max(T(4.5), d));
-    LobeSum<T> out;
     const auto add = [&](const char* which, const T& share, const Fit& below, const Fit& between, const Fit& above) {
       const auto chosen = [&](T Fit::*value) {
         return select(low, below.*value, select(high, above.*value, between.*value));
       };
       const T weight = named("draine_share", chosen(&Fit::weight));
       const T beside = named("beside_peak", chosen(&Fit::beside_peak));
-      push(out, named(which, share * (T(1.0) - weight)),
+      push(put, named(which, share * (T(1.0) - weight)),
            HenyeyGreensteinLobe<T>{named("g_peak", T(1.0) - beside), beside});
-      push(out, named(which, share * weight),
+      push(put, named(which, share * weight),
            DraineLobe<T>::of(named("g_draine", chosen(&Fit::g_draine)), named("alpha", chosen(&Fit::alpha))));
     };
     add("share_below", T(1.0) - over, tiny, small, middle);
     add("share_above", over, small, middle, large);
-    return out;
   }
 
  private:
@@ -58,11 +65,12 @@ struct Droplet {
     T g_draine, alpha, weight;
   };
   /// A fit without part in the law need not be carried along; numbers without a value of their own keep all.
-  static void push(LobeSum<T>& out, const T& weight, const Lobe<T>& lobe) {
+  template <class Put>
+  static void push(Put& put, const T& weight, const Lobe<T>& lobe) {
     if constexpr (Scalar<T>) {
       if (weight == T(0.0)) return;
     }
-    out.push_back({weight, lobe});
+    put(weight, lobe);
   }
   static T power(const T& x, double exponent) { return exp(T(exponent) * log(x)); }
 

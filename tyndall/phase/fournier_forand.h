@@ -23,7 +23,8 @@ struct FournierForand {
                       Field{"slope", &FournierForand::slope, Range{3.1, 4.9}, "1",
                             "How quickly larger particles get fewer (Junge's exponent).", Scaling::none, true}};
   }
-  LobeSum<T> lower() const { return {{{T(1.0), FournierForandLobe<T>::of(n, slope)}}}; }
+  FournierForandLobe<T> lobe() const { return FournierForandLobe<T>::of(n, slope); }
+  LobeSum<T> lower() const { return {{{T(1.0), lobe()}}}; }
 };
 
 }  // namespace tyndall

@@ -18,7 +18,8 @@ struct HenyeyGreenstein {
     return std::tuple{Field{"g", &HenyeyGreenstein::g, Range{-1.0, 1.0, true, true}, "1",
                             "Mean cosine of the deflection; positive scatters forward."}};
   }
-  LobeSum<T> lower() const { return {{{T(1.0), HenyeyGreensteinLobe<T>::of(g)}}}; }
+  HenyeyGreensteinLobe<T> lobe() const { return HenyeyGreensteinLobe<T>::of(g); }
+  LobeSum<T> lower() const { return {{{T(1.0), lobe()}}}; }
 };
 
 }  // namespace tyndall

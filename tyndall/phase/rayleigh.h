@@ -20,9 +20,8 @@ struct Rayleigh {
     return std::tuple{Field{"depolarisation", &Rayleigh::depolarisation, Range{0.0, 1.0, false, true}, "1",
                             "Depolarisation ratio; 0 for ideal molecules, about 0.028 for air."}};
   }
-  LobeSum<T> lower() const {
-    return {{{T(1.0), RayleighLobe<T>{named("gamma", depolarisation / (T(2.0) - depolarisation))}}}};
-  }
+  RayleighLobe<T> lobe() const { return {named("gamma", depolarisation / (T(2.0) - depolarisation))}; }
+  LobeSum<T> lower() const { return {{{T(1.0), lobe()}}}; }
 };
 
 }  // namespace tyndall

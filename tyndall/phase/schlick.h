@@ -20,7 +20,8 @@ struct Schlick {
     return std::tuple{Field{"k", &Schlick::k, Range{-1.0, 1.0, true, true}, "1",
                             "Lengthening of the lobe: above 0 forward, below 0 backward.", Scaling::none, true}};
   }
-  LobeSum<T> lower() const { return {{{T(1.0), SchlickLobe<T>::of(k)}}}; }
+  SchlickLobe<T> lobe() const { return SchlickLobe<T>::of(k); }
+  LobeSum<T> lower() const { return {{{T(1.0), lobe()}}}; }
 };
 
 }  // namespace tyndall
