@@ -28,9 +28,10 @@ def tests_of(path):
     for case in suite.iter("testcase"):
         text = case.findtext("system-out") or ""
         tried = [match[1] for line in text.splitlines() for match in (form.match(line.strip()) for form in CASES) if match]
-        failed = case.find("failure") is not None
+        failure = case.find("failure")
+        stopped = failure is not None and re.search("terminated|Timeout", failure.get("message", ""))  # by hand or by the clock
         skipped = case.find("skipped") is not None or case.get("status") not in ("run", "fail")
-        result = "FAILED" if failed else "not run" if skipped else "passed"
+        result = "stopped" if stopped else "FAILED" if failure is not None else "not run" if skipped else "passed"
         out[case.get("name")] = (float(case.get("time") or 0), result, [re.sub(r" +", " ", t) for t in tried])
     return out, suite.get("timestamp", ""), suite.get("hostname", "")
 
@@ -47,6 +48,7 @@ def duration(seconds):
 
 def grouped(count):
     """Long numbers with thin gaps: 1000000 files becomes 1 000 000 files."""
+    count = re.sub(r"^1 cases", "1 case", count)
     return re.sub(r"\d{5,}", lambda digits: "{:,}".format(int(digits[0])).replace(",", "\u202f"), count)
 
 
@@ -54,15 +56,17 @@ def page(runs):
     tests, days = {}, []
     for path in runs:
         found, stamp, _ = tests_of(path)
-        tests.update({name: row for name, row in found.items() if row[1] != "not run" or name not in tests})
+        tests.update({name: row for name, row in found.items() if row[1] not in ("not run", "stopped") or name not in tests})
         days.append(stamp[:10])
     lines = ["| test | tried | time | result |", "|---|---|---|---|"]
     for name, (seconds, result, tried) in sorted(tests.items(), key=lambda item: words_of(item[0])):
         lines.append("| %s | %s | %s | %s |" % (words_of(name), grouped("<br>".join(tried)) or "-", duration(seconds), result))
     results = [result for _, result, _ in tests.values()]
     total = sum(seconds for seconds, _, _ in tests.values())
-    summary = "%d tests, %s of work: %d passed, %d failed, %d not run." % (
-        len(tests), duration(total), results.count("passed"), results.count("FAILED"), results.count("not run"))
+    unfinished = results.count("not run") + results.count("stopped")
+    summary = "%d tests, %s of work: %d passed, %d failed%s." % (
+        len(tests), duration(total), results.count("passed"), results.count("FAILED"),
+        ", %d stopped before their end" % unfinished if unfinished else "")
     return lines, summary, sorted({day for day in days if day}), "FAILED" not in results and "passed" in results
 
 
@@ -79,7 +83,7 @@ def main():
                 "Made by `make soak` and `python3 scripts/soak_page.py --write build/soak.xml`. They are the tests whose suites have `Soak` in their",
                 "names, and the fuzz targets: the same promises as `make test` holds, tried many times as often. Random ones have fixed seeds;",
                 "libFuzzer's do not.", "",
-                summary + (" Run on %s, one test at a time beside other work." % " and ".join(days) if days else ""), "", *lines, ""]))
+                summary + (" Run on %s, on a busy machine." % " and ".join(days) if days else ""), "", *lines, ""]))
     else:
         print("\n".join(lines))
     print(summary)
