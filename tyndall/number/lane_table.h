@@ -5,7 +5,7 @@
 
 namespace tyndall {
 
-#if defined(__AVX512F__)
+#if defined(TYNDALL_LANES_AVX512)
 template <std::size_t N>
 class SmallTable<Lanes, N> {
  public:

@@ -10,6 +10,7 @@
 namespace tyndall {
 
 #if defined(__AVX512F__) && defined(__AVX512CD__) && defined(__AVX512DQ__) && defined(__AVX512BW__)
+#define TYNDALL_LANES_AVX512 1
 using LaneArchitecture = xsimd::avx512bw;
 #elif defined(__AVX2__) && defined(__FMA__)
 using LaneArchitecture = xsimd::fma3<xsimd::avx2>;
@@ -33,9 +34,9 @@ inline Lanes with_sign_of(const Lanes& x, const Lanes& s) { return xsimd::copysi
 /// lanes together one by one.)
 inline Lanes lookup(const SharedArray& array, const Lanes& index) {
   const float* from = array->data<float>();
-#if defined(__AVX512F__)
+#if defined(TYNDALL_LANES_AVX512)
   return _mm512_i32gather_ps(_mm512_cvttps_epi32(index), from, sizeof(float));
-#elif defined(__AVX2__)
+#elif defined(__AVX2__) && defined(__FMA__)
   return _mm256_i32gather_ps(from, _mm256_cvttps_epi32(index), sizeof(float));
 #else
   return Lanes::gather(from, xsimd::to_int(index));
@@ -44,7 +45,7 @@ inline Lanes lookup(const SharedArray& array, const Lanes& index) {
 
 }  // namespace tyndall
 
-#if defined(__AVX512F__)
+#if defined(TYNDALL_LANES_AVX512)
 // What xsimd 8.1 lacks for AVX-512: its fma() multiplies and adds with two roundings, and the functions built on it do
 // the same in twice the time. They stand in its namespace because argument-dependent lookup looks there alone; being no
 // templates they are preferred to xsimd's.

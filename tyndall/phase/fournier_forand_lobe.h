@@ -125,15 +125,18 @@ struct FournierForandLobe {
     const T logarithm = named("log_d", select(near_one, T(2.0) * fma(series * z2, z, z), log(d)));
 
     // b = sum B_j off^j and k = sum B_j (j + 1)/(j + 2) (1 + m) off^j, B_j = binom(m, j + 1).
-    constexpr int terms = is_double<T> ? 14 : 8;
+    constexpr std::size_t terms = is_double<T> ? 14 : 8;
     std::array<T, terms> binomial;
     binomial[0] = m;
-    for (int j = 1; j < terms; ++j)
-      binomial[j] = named("binomial", binomial[j - 1] * (m - T(static_cast<double>(j))) * T(1.0 / (j + 1.0)));
+    for (std::size_t j = 1; j < terms; ++j) {
+      const double n = static_cast<double>(j);
+      binomial[j] = named("binomial", binomial[j - 1] * (m - T(n)) * T(1.0 / (n + 1.0)));
+    }
     T b_series = binomial[terms - 1], k_series = T(terms / (terms + 1.0)) * binomial[terms - 1];
-    for (int j = terms - 2; j >= 0; --j) {
-      b_series = fma(b_series, off, binomial[j]);
-      k_series = fma(k_series, off, T((j + 1.0) / (j + 2.0)) * binomial[j]);
+    for (std::size_t j = terms - 1; j > 0; --j) {
+      const double n = static_cast<double>(j);
+      b_series = fma(b_series, off, binomial[j - 1]);
+      k_series = fma(k_series, off, T(n / (n + 1.0)) * binomial[j - 1]);
     }
     const auto close = abs(off) < T(is_double<T> ? 0.08 : 0.12);
     const T over = named("over", T(1.0) / select(close, T(1.0), off));
