@@ -32,9 +32,10 @@ bench: install ## Build and run the benchmarks
 	@cmake --build --preset bench -j $(JOBS)
 	@scripts/bench.sh build-bench
 
-soak: configure ## The long tests (hours)
+soak: configure ## The long tests (hours), and what they tried (docs/soak.md)
 	@cmake --build --preset release -j $(JOBS)
-	@scripts/run_tests.sh --preset soak -j $(JOBS)
+	@scripts/run_tests.sh --preset soak -j $(JOBS) --test-output-size-passed 100000 --output-junit soak.xml; \
+	  status=$$?; python3 scripts/soak_page.py build/soak.xml; exit $$status
 
 format: ## Rewrite our sources the way .clang-format says
 	@scripts/format.sh --fix

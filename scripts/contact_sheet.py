@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""contact_sheet.py OUT.png IN.png...: PNG pictures of one size (8 bits, RGB or RGBA) side by side on dark grey.
+"""Puts PNG pictures of one size (8 bits, RGB or RGBA) side by side on dark grey.
 
 The standard library only, so that the demo asks nothing more of a machine than the program does.
 """
+import argparse
 import struct
 import sys
 import zlib
@@ -69,11 +70,12 @@ def write_png(path, width, rows):
         file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", body) + chunk(b"IEND", b""))
 
 
-def main(arguments):
-    if len(arguments) < 2:
-        print(__doc__.splitlines()[0], file=sys.stderr)
-        return 2
-    pictures = [read_png(path) for path in arguments[1:]]
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("sheet", metavar="OUT.png", help="the sheet to write")
+    parser.add_argument("pictures", metavar="IN.png", nargs="+", help="the pictures, from left to right")
+    arguments = parser.parse_args()
+    pictures = [read_png(path) for path in arguments.pictures]
     width, height = pictures[0][:2]
     if any(picture[:2] != (width, height) for picture in pictures):
         print("contact_sheet: the pictures differ in size", file=sys.stderr)
@@ -82,9 +84,9 @@ def main(arguments):
     total = len(pictures) * (width + GAP) + GAP
     margin = [bytes([GREY]) * (3 * total)] * GAP
     rows = [gap + b"".join(rows[y] + gap for _, _, rows in pictures) for y in range(height)]
-    write_png(arguments[0], total, margin + rows + margin)
+    write_png(arguments.sheet, total, margin + rows + margin)
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(main())

@@ -1,4 +1,9 @@
-"""Reads the scanline float pictures that the program writes (OpenEXR 2, ZIP compression). Standard library only."""
+#!/usr/bin/env python3
+"""Reads the scanline float pictures that the program writes (OpenEXR 2, ZIP compression). Standard library only.
+
+As a program it prints the mean and the largest value of each channel.
+"""
+import argparse
 import struct
 import zlib
 from array import array
@@ -62,3 +67,16 @@ def unpredict(block):
     out[0::2] = sums[:half]
     out[1::2] = sums[half:]
     return bytes(out)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("picture", help="an .exr that tyndall wrote")
+    width, height, planes = read(parser.parse_args().picture)
+    print("%d x %d" % (width, height))
+    for name, values in sorted(planes.items()):
+        print("%-16s mean %-12.6g largest %.6g" % (name, sum(values) / len(values), max(values)))
+
+
+if __name__ == "__main__":
+    main()

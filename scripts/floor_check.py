@@ -8,6 +8,7 @@ A folder includes from floors below its own and from itself. From a sibling too,
 including each other in a ring; the outlets (floor 6) never do. Headers of floors 0 to 4 need the standard library only (those that end in
 _test.h are tests and are not installed).
 """
+import argparse
 import pathlib
 import re
 import sys
@@ -138,12 +139,17 @@ def self_test():
     print(f"floor check: {len(plants)} planted violations found")
 
 
-def main(arguments):
-    if arguments == ["--self-test"]:
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("root", nargs="?", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parent.parent,
+                        help="the tree to check (default: this repository)")
+    parser.add_argument("--self-test", action="store_true",
+                        help="plant each kind of violation in a temporary tree and see that it is found")
+    arguments = parser.parse_args()
+    if arguments.self_test:
         self_test()
         return 0
-    root = pathlib.Path(arguments[0]) if arguments else pathlib.Path(__file__).resolve().parent.parent
-    found = faults(root)
+    found = faults(arguments.root)
     for fault in found:
         print(fault)
     if found:
@@ -152,4 +158,4 @@ def main(arguments):
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(main())

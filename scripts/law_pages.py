@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""law_pages.py PROGRAM [--check]: writes docs/laws/, a page for each law, or says whether they are current.
+"""Writes docs/laws/, a page for each law, or says whether they are current.
 
 A page holds what the law's own header says of it: its sentence and comment (formula, source, range), its fields as the
 schema states them, and figures that the program computes. Standard library only.
 
     python3 scripts/law_pages.py build/tyndall
 """
+import argparse
 import json
 import os
 import re
@@ -102,9 +103,13 @@ def pages(program):
 
 
 def main():
-    program = os.path.abspath(sys.argv[1])
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", help="build/tyndall")
+    parser.add_argument("--check", action="store_true", help="write nothing; exit code 1 where a page is not current")
+    arguments = parser.parse_args()
+    program = os.path.abspath(arguments.program)
     made = pages(program)
-    if sys.argv[2:] != ["--check"]:
+    if not arguments.check:
         os.makedirs(PAGES, exist_ok=True)
         for name, text in made.items():
             with open(os.path.join(PAGES, name), "w", encoding="utf-8") as file:
@@ -119,4 +124,5 @@ def main():
         sys.exit(f"law pages: {', '.join(stale)} not current; to write them anew: python3 scripts/law_pages.py build/tyndall")
 
 
-main()
+if __name__ == "__main__":
+    main()

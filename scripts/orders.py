@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""orders.py [PROGRAM]: writes docs/orders.md: how much of the three example scenes' light is scattered more than once.
+"""Writes docs/orders.md: how much of the three example scenes' light is scattered more than once.
 
     python3 scripts/orders.py build/tyndall
 
@@ -7,6 +7,7 @@ Each scene is rendered in four airs, whose extinction is chosen so that the opti
 0.3, 1, 3 and 10: by `path` (all orders; several seeds, whose spread gives the errors) and by `single` (one scattering). Standard
 library only.
 """
+import argparse
 import json
 import math
 import os
@@ -102,7 +103,9 @@ def row(program, name, depth, folder):
 
 
 def main():
-    program = os.path.abspath(sys.argv[1] if len(sys.argv) > 1 else os.path.join(HERE, "..", "build", "tyndall"))
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", nargs="?", default=os.path.join(HERE, "..", "build", "tyndall"), help="default: build/tyndall")
+    program = os.path.abspath(parser.parse_args().program)
     lines = [
         "# How much light is scattered more than once", "",
         "Made by `python3 scripts/orders.py build/tyndall`: the example scenes at %dx%d by `path` with %d times %d samples, in air of the" % (*SIZE, SEEDS, SAMPLES),

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""preset_sheet.py PROGRAM [--check | --page] [--spp N]: docs/pictures/presets.png and docs/presets.md from the presets.
+"""Writes docs/pictures/presets.png and docs/presets.md from the presets.
 
 Both come from the program: the picture is one scene rendered in each preset, the page is what `presets --json` says.
 --page writes the page only, --check says whether it is current. The standard library only.
@@ -159,11 +159,11 @@ def numbers(value):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("program")
-    parser.add_argument("--check", action="store_true")
-    parser.add_argument("--page", action="store_true")
-    parser.add_argument("--spp", type=int, default=256)
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", help="build/tyndall")
+    parser.add_argument("--check", action="store_true", help="write nothing; exit code 1 where the page is not current")
+    parser.add_argument("--page", action="store_true", help="write the page only")
+    parser.add_argument("--spp", type=int, default=256, help="samples per pixel of the picture (default 256)")
     arguments = parser.parse_args()
     program = os.path.abspath(arguments.program)
     entries = presets(program)

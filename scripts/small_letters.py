@@ -1,3 +1,4 @@
+#!/usr/bin/env python3
 """Captions for pictures, with nothing but the standard library: 5 x 7 pixel letters, drawn for this purpose."""
 
 # Seven rows of five pixels each, from the top; a row is a binary number.
@@ -26,3 +27,7 @@ def write(rows, text, left, top, size, colour):
                 at = 3 * (left + size * (WIDTH * index + x))
                 for line in range(size):
                     rows[top + size * y + line][at : at + 3 * size] = bytes(colour) * size
+
+
+if __name__ == "__main__":
+    print(__doc__ + "\nA module of the other scripts; it does nothing by itself.")

@@ -16,7 +16,7 @@ const tests::BadFile bad_scenes[] = {
     {"depth_negative", 3, "/integrator/max_depth", "number -1", "from 0 to"},
     {"direction_zero", 6, "/lights/1/direction", "no usable length", "not all 0"},
     {"duplicate_key", 4, "/film/width", "\"width\" a second time", "each key once"},
-    {"empty", 1, "", "end of input", "JSON"},
+    {"empty", 0, "", "an empty file", "tyndall-scene/1"},
     {"environment_of_both", 6, "/lights/1/radiance", "both file and radiance", "one of file, radiance"},
     {"environment_of_neither", 5, "/lights/1", "neither file nor radiance", "one of file, radiance"},
     {"film_half_a_pixel", 4, "/film/height", "number 360.5", "a whole number"},

@@ -8,6 +8,8 @@
 #include <optional>
 #include <sstream>
 
+#include "tests/cases.h"
+
 namespace tyndall::tests {
 
 /// Holds `property` (drawing with *generator, stating with RC_ASSERT) to `cases` random cases of a fixed seed.
@@ -19,7 +21,7 @@ void expect_property(int cases, Property&& property) {
   params.maxDiscardRatio = 10;
   const rc::detail::TestResult result =
       rc::detail::checkTestable(std::forward<Property>(property), rc::detail::TestMetadata{}, params);
-  if (result.template is<rc::detail::SuccessResult>()) return;
+  if (result.template is<rc::detail::SuccessResult>()) return say_cases(cases, "random cases");
   std::ostringstream text;
   rc::detail::printResultMessage(result, text);
   ADD_FAILURE() << text.str();

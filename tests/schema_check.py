@@ -25,12 +25,19 @@ BEYOND_A_SCHEMA = {
     "base_out_of_range.medium.json",  # denser than numbers can hold, once multiplied out
     "altitude_in_space.medium.json",  # in metres
     "box_inside_out.medium.json",  # one corner against the other
+    "profile_list_bad_member.medium.json",  # bottom against top
+    "profile_list_nowhere.medium.json",  # what comes to the origin
     "measured_beyond_air.medium.json",
     "measured_haze_of_drops.medium.json",  # one dial against another
     "ozone_in_the_ultraviolet.medium.json",
     "camera_looks_nowhere.scene.json",  # look_at against position
     "camera_up_along_view.scene.json",
     "held_visibility_out_of_reach.medium.json",
+    "keyframe_visibility_out_of_reach.medium.json",
+    "keyframes_backwards.medium.json",  # one time against another
+    "keyframes_same_time.medium.json",
+    "keyframes_unlike_models.medium.json",  # one key against another
+    "keyframes_unlike_profiles.medium.json",
     "film_too_large.scene.json",  # a product
     "geometry_absent.scene.json",  # what a name leads to
     "geometry_is_a_folder.scene.json",
@@ -51,7 +58,8 @@ BEYOND_A_SCHEMA = {
 }
 # What objection_to() says where demands_of() tells schemas the same.
 ALSO_IN_SCHEMAS = ("without coefficients", "density beside", "albedo without", "no parts", "both file and radiance",
-                   "neither file nor radiance", "the integrator ")
+                   "neither file nor radiance", "the integrator ", "keyframes beside",
+                   "no keyframes")
 
 
 class NotJson(Exception):

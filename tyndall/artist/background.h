@@ -29,7 +29,7 @@ struct Background {
   static constexpr std::string_view text = "The clean air that is always there.";
   Air air = Air::note;
   double exaggeration = 1.0;
-  std::optional<Profile> profile = std::nullopt;
+  std::optional<Profiles> profile = std::nullopt;
   double altitude = 0.0;
   std::optional<double> ozone = std::nullopt;
   static constexpr auto fields() {
@@ -143,10 +143,11 @@ inline void remark_on(const Background& background, const Spectrum& wavelengths_
                 "1: real air scatters as stated");
   }
   // R T / (M g) for 200 to 310 K, the coldest and warmest air near the ground.
-  const auto* height = background.profile ? std::get_if<ExponentialProfile>(&*background.profile) : nullptr;
-  if (height != nullptr && !(height->scale_height >= 5850.0 && height->scale_height <= 9100.0)) {
-    remarks.add("profile/scale_height",
-                "air that thins by a factor e every " + short_number(height->scale_height) + " m",
+  const auto height = background.profile ? scale_height_of(*background.profile) : std::nullopt;
+  if (height && !(*height >= 5850.0 && *height <= 9100.0)) {
+    const bool alone = background.profile->all.size() == 1;
+    remarks.add(alone ? "profile/scale_height" : "profile",
+                "air that thins by a factor e every " + short_number(*height) + " m",
                 "5.9 km (200 K) to 9.1 km (310 K); 8 km is usual");
   }
   // Daily columns go from some 80 DU in the deepest ozone holes to some 600 DU in Arctic spring.

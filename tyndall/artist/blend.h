@@ -120,6 +120,17 @@ inline std::optional<Objection> align_hold(MediumDials& a, MediumDials& b, doubl
   return std::nullopt;
 }
 
+/// Two visibilities that are held may lead past what the rest leaves on the way, where veil and profile change too:
+/// there what the rest leaves is held.
+inline void keep_in_reach(MediumDials& dials, double meters_per_unit) {
+  Simple* const simple = dials.conditions ? std::get_if<Simple>(&*dials.conditions) : nullptr;
+  if (simple == nullptr || !simple->hold) return;
+  const Spectrum thickness = extinction_of(simple->thickness, meters_per_unit);
+  const Spectrum others = others_of(in_metres(dials, meters_per_unit)) * meters_per_unit;
+  const double rest = rest_in_green(*simple, others, meters_per_unit), stated = thickness[visibility_channel];
+  if (rest > stated && stated > 0.0) simple->thickness = PlainExtinction{thickness * (rest / stated)};
+}
+
 /// Measured air whose density is stated in other ways or numbers becomes what its particles alone take from a beam: as
 /// everything else is interpolated by extinction, so is visibility then.
 inline void align_measured(MediumDials& a, MediumDials& b, double meters_per_unit) {
@@ -240,8 +251,8 @@ inline std::optional<Objection> align(std::vector<StatedSpecies>& a, std::vector
 /// The medium whose dials stand at t in [0, 1] between those of a and b: w, extinction (thickness and veil), lobes,
 /// albedos, exaggeration, profiles and stated species, each linearly (Hoobler's note: "simply interpolate between the w
 /// and optical thickness settings"). Both are in units of `meters_per_unit` metres. Exactly a at 0 and b at 1. What one
-/// medium lacks counts as being there with no density; where one holds visibility, both do. Objects to different
-/// models, laws or profiles.
+/// medium lacks counts as being there with no density; where one holds visibility, both do, as far as what else is
+/// there on the way leaves it. Objects to different models, laws or profiles.
 inline Blend interpolate(MediumDials a, MediumDials b, double t, double meters_per_unit = 1.0) {
   if (t == 0.0) return a;
   if (t == 1.0) return b;
@@ -250,8 +261,10 @@ inline Blend interpolate(MediumDials a, MediumDials b, double t, double meters_p
   if (auto objection = blending::align(a.background, b.background)) return *objection;
   if (auto objection = blending::align(a.conditions, b.conditions, meters_per_unit)) return *objection;
   if (auto objection = blending::align(a.species, b.species, meters_per_unit)) return *objection;
-  return MediumDials{between_dials(a.background, b.background, t), between_dials(a.conditions, b.conditions, t),
-                     between_dials(a.species, b.species, t), a.channels};
+  MediumDials out{between_dials(a.background, b.background, t), between_dials(a.conditions, b.conditions, t),
+                  between_dials(a.species, b.species, t), a.channels};
+  blending::keep_in_reach(out, meters_per_unit);
+  return out;
 }
 
 }  // namespace tyndall

@@ -153,7 +153,7 @@ TEST(Interpolate, HoldsVisibilityInBothWhereOneDoes) {
     model->hold = Hold::visibility;
     if (dice.coin(0.3)) a.conditions.reset();
     // A base height that moves would change densities at the origin on the way.
-    if (model->profile && std::holds_alternative<ExponentialProfile>(*model->profile)) continue;
+    if (model->profile && scale_height_of(*model->profile)) continue;
     if (std::holds_alternative<Objection>(compile(b))) continue;
     if (dice.coin()) std::swap(a, b);
     const double t = dice.between(0.0, 1.0), ea = extinction_at(medium_of(a), {})[1];
@@ -163,6 +163,41 @@ TEST(Interpolate, HoldsVisibilityInBothWhereOneDoes) {
     ++checked;
   }
   EXPECT_GT(checked, 300);
+}
+
+TEST(Blend, ProductsOfProfilesSurvive) {
+  const auto fog = [](std::vector<Profile> profiles, double extinction) {
+    Simple model;
+    model.w = 0.5;
+    model.thickness = PlainExtinction{Spectrum::grey(extinction)};
+    if (!profiles.empty()) model.profile = Profiles(std::move(profiles));
+    return MediumDials{{}, model, {}, {}};
+  };
+  const NoiseProfile noise{5.0, 3, 0.5, 1, {}};
+  const MediumDials a = fog({ExponentialProfile{10.0, 0.0}, noise}, 0.1);
+  const MediumDials b = fog({ExponentialProfile{30.0, 0.0}, noise}, 0.3);
+  const Vector up{3.0, 15.0, 1.0};
+  const auto at = [&](const MediumDials& dials) { return extinction_at(medium_of(dials), up)[1]; };
+  EXPECT_NEAR(at(a), 0.1 * std::exp(-1.5), 1e-15);
+  // The same laws in the same places: their numbers are between those of the ends.
+  const MediumDials half = dials_of(interpolate(a, b, 0.5));
+  EXPECT_EQ(*std::get<Simple>(*half.conditions).profile,
+            Profiles(std::vector<Profile>{ExponentialProfile{20.0, 0.0}, noise}));
+  EXPECT_NEAR(at(half), 0.2 * std::exp(-0.75), 1e-15);
+  EXPECT_NEAR(at(dials_of(morph(a, b, 0.5))), std::sqrt(0.03) * std::exp(-0.75), 1e-15);
+  EXPECT_NEAR(at(dials_of(mix(a, b, 0.5))), 0.5 * (at(a) + at(b)), 1e-15);
+  for (const Species& s : medium_of(dials_of(mix(a, b, 0.5))).species) EXPECT_EQ(s.profiles.size(), 2U);
+  // Another order or another number of them is another place.
+  for (const MediumDials& other :
+       {fog({noise, ExponentialProfile{30.0, 0.0}}, 0.3), fog({ExponentialProfile{30.0, 0.0}}, 0.3), fog({}, 0.3)}) {
+    const Blend refused = interpolate(a, other, 0.5);
+    ASSERT_TRUE(std::holds_alternative<Objection>(refused));
+    EXPECT_EQ(std::get<Objection>(refused).field, "conditions/profile");
+    EXPECT_NEAR(at(dials_of(mix(a, other, 0.25))), 0.75 * at(a) + 0.25 * at(other), 1e-15);
+    const MediumDials morphed = dials_of(morph(a, other, 0.25));
+    EXPECT_NEAR(extinction_at(medium_of(morphed), {})[1], std::pow(0.1, 0.75) * std::pow(0.3, 0.25), 1e-15);
+    for (const StatedSpecies& s : morphed.species) EXPECT_TRUE(!s.profile || s.profile->all.size() <= 2);
+  }
 }
 
 TEST(Blend, EndsAreExact) {

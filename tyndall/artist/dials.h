@@ -25,6 +25,9 @@ void for_each_number(T& value, const FieldFacts& facts, const std::string& path,
     visit(value.z, facts, path);
   } else if constexpr (OptionalMember<U>) {
     if (value) for_each_number(*value, facts, path, visit);
+  } else if constexpr (OneOrMoreMember<U>) {
+    if (value.all.size() == 1) return for_each_number(value.all.front(), facts, path, visit);
+    for_each_number(value.all, facts, path, visit);
   } else if constexpr (ListMember<U> || ArrayMember<U>) {
     std::size_t i = 0;
     for (auto& element : value) for_each_number(element, facts, path + '/' + std::to_string(i++), visit);
@@ -53,8 +56,8 @@ T in_metres(T value, double meters_per_unit) {
 /// The first number of a described value that is not finite or outside its field's range, or a length above 0 whose
 /// reciprocal is not finite. Reading has checked what was written; this checks what became of it (a very small unit, a
 /// setting made by a program).
-template <Described T>
-std::optional<Objection> unusable_number(const T& value) {
+template <class T>
+requires Described<T> || OneOrMoreMember<T> std::optional<Objection> unusable_number(const T& value) {
   std::optional<Objection> objection;
   for_each_number(value, FieldFacts{}, "", [&](double x, const FieldFacts& facts, const std::string& path) {
     const bool divides = facts.scaling == Scaling::length && facts.range.open_low;
@@ -78,6 +81,8 @@ bool alike(const T& a, const T& b) {
     bool all = a.size() == b.size();
     for (std::size_t i = 0; all && i < a.size(); ++i) all = alike(a[i], b[i]);
     return all;
+  } else if constexpr (OneOrMoreMember<T>) {
+    return alike(a.all, b.all);
   } else if constexpr (Choice<T>) {
     return a.index() == b.index() &&
            std::visit(
@@ -108,8 +113,8 @@ bool same(const T& a, const T& b) {
   return alike(a, b) && numbers_of(a) == numbers_of(b);
 }
 
-/// a (1 - t) + b t, exact at both ends.
-inline double between(double a, double b, double t) { return t == 1.0 ? b : a + (b - a) * t; }
+/// a (1 - t) + b t, exact at both ends and never outside them.
+inline double between(double a, double b, double t) { return std::lerp(a, b, t); }
 inline Spectrum between(const Spectrum& a, const Spectrum& b, double t) {
   Spectrum out;
   for (std::size_t i = 0; i < channel_count; ++i) out[i] = between(a[i], b[i], t);

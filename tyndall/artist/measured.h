@@ -28,7 +28,7 @@ struct Measured {
   std::optional<double> droplet_diameter = std::nullopt;
   std::optional<Spectrum> albedo = std::nullopt;
   std::optional<double> angstrom_exponent = std::nullopt, mean_cosine = std::nullopt;
-  std::optional<Profile> profile = std::nullopt;
+  std::optional<Profiles> profile = std::nullopt;
   static constexpr auto fields() {
     return std::tuple{
         Field{"air", &Measured::air, any_number, "", "What is in the air.", Scaling::none, true},
@@ -50,7 +50,8 @@ struct Measured {
               "Extinction goes as wavelength to minus this, where measured; else as in the kind of air."},
         Field{"mean_cosine", &Measured::mean_cosine, Range{-1.0, 1.0, true, true}, "1",
               "Mean cosine of scattering, where measured; else that of the kind of air."},
-        Field{"profile", &Measured::profile, any_number, "", "How it varies in space; absent: not at all."}};
+        Field{"profile", &Measured::profile, any_number, "",
+              "How it varies in space, a list multiplies; absent: not at all."}};
   }
   double diameter() const { return droplet_diameter.value_or(usual_diameter(air)); }
 };
@@ -102,9 +103,9 @@ inline double stated_extinction_at_550(const Measured& m, const Surroundings& ot
     return rest > whole && rest <= whole * (1.0 + 1e-12) ? 0.0 : whole - rest;
   }
   if (m.turbidity) {
-    const auto* height = m.profile ? std::get_if<ExponentialProfile>(&*m.profile) : nullptr;
+    const auto height = m.profile ? scale_height_of(*m.profile) : std::nullopt;
     return std::fmax(0.0, *m.turbidity - 1.0) * air_optical_depth_above(550.0, others.pressure) /
-           (height != nullptr ? height->scale_height : usual_haze_height);
+           height.value_or(usual_haze_height);
   }
   return extinction_of_liquid_water(m.liquid_water_content.value_or(0.0), m.diameter(), 550.0);
 }

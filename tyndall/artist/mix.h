@@ -20,7 +20,7 @@ inline std::variant<std::vector<StatedSpecies>, Objection> as_species(const Medi
     s.scattering = all[i].scattering;
     s.absorption = all[i].absorption;
     s.phase = all[i].phase;
-    if (!all[i].profiles.empty()) s.profile = all[i].profiles.front();
+    if (!all[i].profiles.empty()) s.profile = all[i].profiles;
     out.push_back(std::move(s));
   }
   return out;

@@ -26,11 +26,13 @@ Density any_density(double low, double high) {
   return forms[*rc::gen::inRange<std::size_t>(0, forms.size())];
 }
 
-std::optional<Profile> any_profile() {
+std::optional<Profiles> any_profile() {
   const double height = *magnitude(1.0, 1e4);
-  return *element<std::optional<Profile>>(std::nullopt, ConstantProfile{}, ExponentialProfile{height, 0.0},
-                                          ExponentialProfile{height, -0.5 * height}, SphereProfile{{}, height},
-                                          NoiseProfile{height, 4, 0.5, 0, {}});
+  const NoiseProfile noise{height, 4, 0.5, 0, {}};
+  const ExponentialProfile deep{height, -0.5 * height};
+  return *element<std::optional<Profiles>>(std::nullopt, ConstantProfile{}, ExponentialProfile{height, 0.0}, deep,
+                                           SphereProfile{{}, height}, noise,
+                                           std::vector<Profile>{deep, noise, SphereProfile{{}, height}});
 }
 
 std::optional<Background> any_background() {

@@ -27,13 +27,13 @@ inline void order_lobes(std::optional<Conditions>& conditions) {
 }
 
 /// Density at the origin, where media are compared; a species that is elsewhere counts by its stated density.
-inline double weight_at_origin(const std::optional<Profile>& profile) {
+inline double weight_at_origin(const std::optional<Profiles>& profile) {
   const double here = profile ? mean_factor(*profile, Vector{}) : 1.0;
   return here > 0.0 && std::isfinite(here) ? here : 1.0;
 }
 
 /// Whether a profile has nothing at the origin.
-inline bool is_elsewhere(const std::optional<Profile>& profile) {
+inline bool is_elsewhere(const std::optional<Profiles>& profile) {
   return profile && !(mean_factor(*profile, Vector{}) > 0.0);
 }
 

@@ -49,8 +49,15 @@ class Dice {
         return Visibility{spectrum(3.0 / high, 3.0 / low), coin() ? 0.05 : between(0.01, 0.1)};
     }
   }
-  /// A profile that covers the origin.
-  std::optional<Profile> profile() {
+  /// A profile that covers the origin, or a product of such.
+  std::optional<Profiles> profile() {
+    auto out = one_profile();
+    for (int more = out && coin(0.2) ? 1 + below(2) : 0; more > 0; --more) {
+      if (const auto another = one_profile()) out->all.push_back(another->all.front());
+    }
+    return out;
+  }
+  std::optional<Profiles> one_profile() {
     switch (below(6)) {
       case 0:
         return ConstantProfile{};

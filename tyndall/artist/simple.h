@@ -26,7 +26,7 @@ struct Simple {
   Density thickness = PlainExtinction{};
   Spectrum albedo = Spectrum::grey(1.0);
   std::optional<Veil> veil;
-  std::optional<Profile> profile;
+  std::optional<Profiles> profile;
   std::optional<Hold> hold;
   static constexpr auto fields() {
     return std::tuple{Field{"w", &Simple::w, unit_interval, "1", "0 nothing, 0.5 hazy, 1 murky.", Scaling::none, true},
@@ -35,7 +35,8 @@ struct Simple {
                       Field{"albedo", &Simple::albedo, unit_interval, "1",
                             "Share of what haze and murk take from a beam that is scattered."},
                       Field{"veil", &Simple::veil, any_number, "", "The even part, as of dust or smoke."},
-                      Field{"profile", &Simple::profile, any_number, "", "How it varies in space; absent: not at all."},
+                      Field{"profile", &Simple::profile, any_number, "",
+                            "How it varies in space, a list multiplies; absent: not at all."},
                       Field{"hold", &Simple::hold, any_number, "",
                             "\"visibility\": thickness is that of the finished medium, whatever w."}};
   }
@@ -49,6 +50,14 @@ inline HazyMurky simple_strengths(double w) { return {1.0 - std::fabs(1.0 - 2.0 
 /// The same divided by their sum min(1, 2w); w = 0 is taken as pure hazy.
 inline HazyMurky simple_shares(double w) { return w <= 0.5 ? HazyMurky{1.0, 0.0} : simple_strengths(w); }
 
+/// Extinction at the origin in green of all but haze and murk: the others' and the veil's. Dials and `others` are in
+/// units of `meters_per_unit` metres.
+inline double rest_in_green(const Simple& simple, const Spectrum& others, double meters_per_unit = 1.0) {
+  const double here = simple.profile ? mean_factor(*simple.profile, Vector{}) : 1.0;
+  const double veil = simple.veil ? extinction_of(simple.veil->density, meters_per_unit)[visibility_channel] : 0.0;
+  return others[visibility_channel] + here * veil;
+}
+
 /// Adds the model's species. The others' extinction at the origin counts only when visibility is held: then thickness
 /// is multiplied by the one factor that gives the finished medium, at the origin and in the green channel, the
 /// extinction that `thickness` states. Objects where the rest alone is thicker than that.
@@ -58,8 +67,7 @@ inline std::optional<Objection> compile(const Simple& simple, const Surroundings
   if (simple.hold == Hold::visibility) {
     const std::size_t green = visibility_channel;
     const double here = simple.profile ? mean_factor(*simple.profile, Vector{}) : 1.0;
-    const double veil = simple.veil ? extinction_of(simple.veil->density)[green] : 0.0;
-    const double stated = thickness[green], rest = others.extinction[green] + here * veil;
+    const double stated = thickness[green], rest = rest_in_green(simple, others.extinction);
     if (!(here > 0.0) || !std::isfinite(here)) {
       return Objection{"profile", "a profile that leaves nothing at the origin, where visibility is held",
                        "one that covers the origin, or no \"hold\""};
@@ -90,9 +98,8 @@ inline std::optional<Simple> held(Simple simple, const Spectrum& others, double 
   const std::size_t green = visibility_channel;
   const Spectrum thickness = extinction_of(simple.thickness, meters_per_unit);
   const double here = simple.profile ? mean_factor(*simple.profile, Vector{}) : 1.0;
-  const double veil = simple.veil ? extinction_of(simple.veil->density, meters_per_unit)[green] : 0.0;
   const HazyMurky k = simple_strengths(simple.w);
-  const double whole = others[green] + here * (veil + (k.hazy + k.murky) * thickness[green]);
+  const double whole = rest_in_green(simple, others, meters_per_unit) + here * (k.hazy + k.murky) * thickness[green];
   if (!(here > 0.0) || !(thickness[green] > 0.0)) return std::nullopt;
   simple.thickness = PlainExtinction{thickness * (whole / thickness[green])};
   simple.hold = Hold::visibility;

@@ -71,7 +71,7 @@ struct StatedSpecies {
   std::optional<Density> density;
   std::optional<Spectrum> albedo;
   Law<double> phase = Isotropic<double>{};
-  std::optional<Profile> profile;
+  std::optional<Profiles> profile;
   static constexpr auto fields() {
     return std::tuple{
         Field{"name", &StatedSpecies::name, any_number, "", "What to call it."},
@@ -84,7 +84,8 @@ struct StatedSpecies {
         Field{"albedo", &StatedSpecies::albedo, unit_interval, "1",
               "Share of the extinction that is scattering; 1 unless stated."},
         Field{"phase", &StatedSpecies::phase, any_number, "", "Its law of scattering; isotropic unless stated."},
-        Field{"profile", &StatedSpecies::profile, any_number, "", "How it varies in space; absent: not at all."}};
+        Field{"profile", &StatedSpecies::profile, any_number, "",
+              "How it varies in space, a list multiplies; absent: not at all."}};
   }
 };
 
@@ -102,8 +103,8 @@ constexpr auto demands_of(const StatedSpecies&) {
                     not_both("absorption", "density"), needs("albedo", "density")};
 }
 
-inline std::vector<Profile> profiles_of(const std::optional<Profile>& profile) {
-  return profile ? std::vector<Profile>{*profile} : std::vector<Profile>{};
+inline std::vector<Profile> profiles_of(const std::optional<Profiles>& profile) {
+  return profile ? profile->all : std::vector<Profile>{};
 }
 
 /// Adds a species unless it does nothing to light.
@@ -113,7 +114,7 @@ inline void add_unless_void(Species species, std::vector<Species>& out) {
 
 /// A species of this extinction [1/m] and albedo.
 inline Species species_of(std::string name, const Spectrum& extinction, const Spectrum& albedo, Law<double> phase,
-                          const std::optional<Profile>& profile) {
+                          const std::optional<Profiles>& profile) {
   return {std::move(name), extinction * albedo, extinction * (Spectrum::grey(1.0) - albedo), std::move(phase),
           profiles_of(profile)};
 }

@@ -21,20 +21,20 @@ struct TwoLobes {
   Density thickness = PlainExtinction{};
   Spectrum albedo = Spectrum::grey(1.0);
   std::optional<Veil> veil;
-  std::optional<Profile> profile;
+  std::optional<Profiles> profile;
   static constexpr auto fields() {
     constexpr Range inside{-1.0, 1.0, true, true};
-    return std::tuple{
-        Field{"r", &TwoLobes::r, unit_interval, "1", "Share of the second lobe.", Scaling::none, true},
-        Field{"g1", &TwoLobes::g1, inside, "1", "Mean cosine of the first lobe; positive scatters forward.",
-              Scaling::none, true},
-        Field{"g2", &TwoLobes::g2, inside, "1", "Mean cosine of the second lobe.", Scaling::none, true},
-        Field{"thickness", &TwoLobes::thickness, any_number, "", "Extinction of both lobes together.", Scaling::none,
-              true},
-        Field{"albedo", &TwoLobes::albedo, unit_interval, "1",
-              "Share of what the lobes take from a beam that is scattered."},
-        Field{"veil", &TwoLobes::veil, any_number, "", "The even part, as of dust or smoke."},
-        Field{"profile", &TwoLobes::profile, any_number, "", "How it varies in space; absent: not at all."}};
+    return std::tuple{Field{"r", &TwoLobes::r, unit_interval, "1", "Share of the second lobe.", Scaling::none, true},
+                      Field{"g1", &TwoLobes::g1, inside, "1",
+                            "Mean cosine of the first lobe; positive scatters forward.", Scaling::none, true},
+                      Field{"g2", &TwoLobes::g2, inside, "1", "Mean cosine of the second lobe.", Scaling::none, true},
+                      Field{"thickness", &TwoLobes::thickness, any_number, "", "Extinction of both lobes together.",
+                            Scaling::none, true},
+                      Field{"albedo", &TwoLobes::albedo, unit_interval, "1",
+                            "Share of what the lobes take from a beam that is scattered."},
+                      Field{"veil", &TwoLobes::veil, any_number, "", "The even part, as of dust or smoke."},
+                      Field{"profile", &TwoLobes::profile, any_number, "",
+                            "How it varies in space, a list multiplies; absent: not at all."}};
   }
 };
 

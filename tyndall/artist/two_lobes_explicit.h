@@ -34,13 +34,14 @@ struct TwoLobesExplicit {
   static constexpr std::string_view text = "Two lobes, each with its own sharpness and coloured thickness.";
   ExplicitLobe first, second;
   std::optional<Veil> veil = std::nullopt;
-  std::optional<Profile> profile = std::nullopt;
+  std::optional<Profiles> profile = std::nullopt;
   static constexpr auto fields() {
     return std::tuple{
         Field{"first", &TwoLobesExplicit::first, any_number, "", "The first lobe.", Scaling::none, true},
         Field{"second", &TwoLobesExplicit::second, any_number, "", "The second lobe.", Scaling::none, true},
         Field{"veil", &TwoLobesExplicit::veil, any_number, "", "The even part, as of dust or smoke."},
-        Field{"profile", &TwoLobesExplicit::profile, any_number, "", "How it varies in space; absent: not at all."}};
+        Field{"profile", &TwoLobesExplicit::profile, any_number, "",
+              "How it varies in space, a list multiplies; absent: not at all."}};
   }
 };
 

@@ -22,7 +22,8 @@ struct Veil {
   }
 };
 
-inline void compile(const std::optional<Veil>& veil, const std::optional<Profile>& profile, std::vector<Species>& out) {
+inline void compile(const std::optional<Veil>& veil, const std::optional<Profiles>& profile,
+                    std::vector<Species>& out) {
   if (veil) {
     add_unless_void(species_of("veil", extinction_of(veil->density), veil->albedo, Isotropic<double>{}, profile), out);
   }

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace tyndall {
 
@@ -11,7 +13,13 @@ void add_seed(CLI::App& command, std::uint64_t& seed);
 void add_threads(CLI::App& command, int& threads);
 void add_allow_path(CLI::App& command, bool& allow_path);
 
-/// A check that an option is a number within [low, high]; CLI::Range would let "nan" through.
-std::function<std::string(const std::string&)> number_within(double low, double high);
+/// Checks of an option's text, in the words of a Fault; the parser's own let "nan" through, and say less.
+using Check = std::function<std::string(const std::string&)>;
+/// A number within [low, high].
+Check number_within(double low, double high);
+/// A whole number within [low, high].
+Check whole_within(std::uint64_t low, std::uint64_t high);
+/// One of these words.
+Check word_of(std::vector<std::string_view> words);
 
 }  // namespace tyndall

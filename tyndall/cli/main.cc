@@ -9,8 +9,8 @@
 #include <string>
 
 #include "tyndall/cli/commands.h"
+#include "tyndall/cli/request_message.h"
 #include "tyndall/document/fault.h"
-#include "tyndall/document/spelling.h"
 
 namespace tyndall {
 namespace {
@@ -21,17 +21,6 @@ using AddCommand = void (*)(CLI::App&);
 constexpr AddCommand commands[] = {
 #include "command_list.inc"
 };
-
-/// What was probably meant where the first word is no command.
-std::string command_hint(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return "";
-  std::vector<std::string_view> names;
-  for (const CLI::App* command : app.get_subcommands({})) {
-    if (command->get_name() == argv[1]) return "";
-    names.push_back(command->get_name());
-  }
-  return "no command " + in_quotes(argv[1]) + ", only " + one_of(argv[1], names);
-}
 
 /// Where the caller closed a standard stream, the next file opened would take its number, and a message would go into
 /// it. Opened for the wrong direction, it still fails as a closed one does.
@@ -63,8 +52,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::RuntimeError& ended) {  // a command that chose its exit code, having said what there is to say
     return ended.get_exit_code();
   } catch (const CLI::ParseError& error) {
-    const std::string hint = command_hint(app, argc, argv);
-    return complain(unusable_request, hint.empty() ? printable(error.what()) + " (see --help)" : hint);
+    return complain(unusable_request, request_message(error, app, argc, argv));
   }
   if (!std::cout.flush()) return complain(internal_failure, "the output could not be written");
   return 0;

@@ -9,6 +9,7 @@
 
 #include "tyndall/cli/arguments.h"
 #include "tyndall/cli/commands.h"
+#include "tyndall/cli/law_list.h"
 #include "tyndall/cli/number_list.h"
 #include "tyndall/cli/table.h"
 #include "tyndall/cli/warnings.h"
@@ -135,10 +136,6 @@ void print_tables(const Subject& subject, const PhaseOptions& options) {
 void phase(PhaseOptions options) {
   options.at = numbers_from(options.at_text, "--at", -1.0, 1.0);
   options.sample = numbers_from(options.sample_text, "--sample", 0.0, 1.0);
-  if (options.moments && (*options.moments < 0 || *options.moments > most_moments)) {
-    throw Fault("--moments", "the number " + std::to_string(*options.moments),
-                "a whole number from 0 to " + std::to_string(most_moments));
-  }
   const Subject subject = subject_of(options.subject, options.allow_path);
   if (options.json) {
     std::cout << pretty(answers(subject, options));
@@ -158,18 +155,18 @@ void phase(PhaseOptions options) {
 void add_phase(CLI::App& app) {
   auto options = std::make_shared<PhaseOptions>();
   CLI::App* command = app.add_subcommand("phase", "Print how a law, or a medium's mixture of laws, scatters");
-  std::string laws;
-  for (const std::string_view name : law_names()) laws += (laws.empty() ? "" : ", ") + std::string(name);
   command->add_option("LAW|MEDIUM", options->subject, "A law with its parameters, or a medium file")->required();
   command->add_option("--at", options->at_text, "Density [1/sr] at these cosines of the angle of scattering")
       ->type_name("MU,..");
-  command->add_option("--moments", options->moments, "Legendre moments up to order N")->type_name("N");
+  command->add_option("--moments", options->moments, "Legendre moments up to order N")
+      ->type_name("N")
+      ->check(whole_within(0, most_moments));
   command->add_option("--sample", options->sample_text, "Sampled mu for these random numbers from 0 to 1")
       ->type_name("U,..");
   command->add_flag("--json", options->json, "Print one JSON object: a law gives numbers, a medium lists [r, g, b]");
   add_allow_path(*command, options->allow_path);
-  command->footer("Laws: " + laws +
-                  ".\nmu = 1 is straight on, mu = -1 straight back. A medium is taken at the origin.\n\n"
+  command->footer(law_list() +
+                  "\nmu = 1 is straight on, mu = -1 straight back. A medium is taken at the origin.\n\n"
                   "Example: tyndall phase henyey_greenstein:g=0.7 --at 1,0,-1 --moments 4");
   command->callback([options] { phase(*options); });
 }

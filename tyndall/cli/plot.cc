@@ -8,6 +8,7 @@
 
 #include "tyndall/cli/arguments.h"
 #include "tyndall/cli/commands.h"
+#include "tyndall/cli/law_list.h"
 #include "tyndall/document/law_text.h"
 #include "tyndall/document/named_medium.h"
 #include "tyndall/document/spelling.h"
@@ -147,8 +148,6 @@ void plot_to_file(const Options& options) {
 void add_plot(CLI::App& app) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("plot", "Draw how media and laws scatter light, and how far one sees in them");
-  std::string laws;
-  for (const std::string_view name : law_names()) laws += (laws.empty() ? "" : ", ") + std::string(name);
   command->add_option("MEDIUM|LAW", options->subjects, "1 to 8 medium files or laws, drawn over each other")
       ->required();
   command->add_option("-o,--output", options->output, "Where to write: .svg (for print and the web) or .png")
@@ -167,8 +166,8 @@ void add_plot(CLI::App& app) {
       ->type_name("WxH");
   add_allow_path(*command, options->allow_path);
   command->footer(
-      "Laws: " + laws +
-      ".\nOne medium is drawn in its red, green and blue; of several, each has a line of its own (its green).\n"
+      law_list() +
+      "\nOne medium is drawn in its red, green and blue; of several, each has a line of its own (its green).\n"
       "Angle 0 is straight on, 180 back to where the light came from. A medium is taken at the origin.\n"
       "The page is made for print 180 mm wide, a single panel 88 mm; --size sets its pixels and its shape.\n\n"
       "Example: tyndall plot rayleigh henyey_greenstein:g=0.7 -o laws.svg\n"

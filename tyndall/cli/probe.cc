@@ -8,6 +8,7 @@
 #include "tyndall/cli/scene_arguments.h"
 #include "tyndall/cli/table.h"
 #include "tyndall/document/fault.h"
+#include "tyndall/document/spelling.h"
 #include "tyndall/document/writing.h"
 #include "tyndall/render/path.h"
 #include "tyndall/render/single.h"
@@ -84,7 +85,7 @@ void probe(const ProbeOptions& options) {
   if (!options.direction.empty()) {
     direction = vector_from(options.direction, "--direction");
     const double largest_part = std::max({std::fabs(direction.x), std::fabs(direction.y), std::fabs(direction.z)});
-    if (!(largest_part > 0.0)) throw Fault("--direction", "0,0,0", "a direction");
+    if (!(largest_part > 0.0)) throw Fault("--direction", in_quotes(options.direction), "a direction, not all of it 0");
     direction = normalized(direction / largest_part);  // however long or short it was
   } else if (!options.fluence) {
     throw Fault("--direction", "nothing", "the direction to look in, as x,y,z");
@@ -108,15 +109,15 @@ void add_probe(CLI::App& app) {
                    "Look only that far, in the scene's units; without it, to the first surface or the sky")
       ->check([](const std::string& text) {
         double value = 0.0;
-        return CLI::detail::lexical_cast(text, value) && value > 0.0 ? std::string()
-                                                                     : "--distance must be a number above 0";
+        if (CLI::detail::lexical_cast(text, value) && value > 0.0) return std::string();
+        return "found " + in_quotes(text) + ", expected a number above 0";
       });
   command
       ->add_option("--integrator", options->integrator,
                    "single (default): light scattered at most once, exact; path: all light, with a standard error")
-      ->check(CLI::IsMember(std::vector<std::string>(integrator_names.begin(), integrator_names.end())));
+      ->check(word_of({integrator_names.begin(), integrator_names.end()}));
   command->add_option("--spp", options->spp, "Samples of path (default 65536); four times as many halve the error")
-      ->check(CLI::Range(2u, 4000000000u));
+      ->check(whole_within(2, 4000000000u));
   command->add_flag("--fluence", options->fluence,
                     "Add up the light from all directions [W/m^2] instead of looking in one");
   add_seed(*command, options->seed);

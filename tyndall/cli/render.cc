@@ -14,10 +14,13 @@
 
 #include "tyndall/cli/arguments.h"
 #include "tyndall/cli/commands.h"
+#include "tyndall/cli/company.h"
+#include "tyndall/cli/long_work.h"
 #include "tyndall/cli/progress.h"
 #include "tyndall/cli/scene_arguments.h"
 #include "tyndall/document/spelling.h"
 #include "tyndall/document/whole_file.h"
+#include "tyndall/document/writing.h"
 #include "tyndall/image/exr.h"
 #include "tyndall/image/png.h"
 #include "tyndall/render/film.h"
@@ -33,6 +36,7 @@ struct RenderOptions {
   int spp = 0, threads = 0;
   double exposure = 0.0;
   std::uint64_t seed = 1;
+  LongWork long_work;
   bool quiet = false;
 };
 
@@ -41,8 +45,8 @@ std::atomic<int> stopping_signal{0};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
               "a signal handler may only touch lock-free atomics");
 
-/// From now on the first Ctrl-C (or SIGTERM) asks the renderer to stop; a second one ends the program as usual. Nobody
-/// reading the progress any more is no reason to end at all.
+/// From now on the first Ctrl-C (SIGTERM, SIGUSR1) asks the renderer to stop; a second one ends the program as usual.
+/// Nobody reading the progress any more is no reason to end at all.
 void heed_signals() {
   struct sigaction stop {};
   stop.sa_handler = [](int signal) {
@@ -52,6 +56,7 @@ void heed_signals() {
   stop.sa_flags = static_cast<int>(SA_RESETHAND);
   sigaction(SIGINT, &stop, nullptr);
   sigaction(SIGTERM, &stop, nullptr);
+  sigaction(SIGUSR1, &stop, nullptr);  // mpirun passes it on; after the others it kills
   std::signal(SIGPIPE, SIG_IGN);
 }
 
@@ -97,6 +102,10 @@ void check_outputs(const std::vector<std::string>& outputs) {
   }
 }
 
+Development looks_of(const RenderOptions& options) {
+  return {options.exposure, options.tone == "none" ? Tone::none : Tone::filmic};
+}
+
 /// Writes them all even if one cannot be written: the others may be all that is left of a night's work.
 void write_outputs(const RenderOptions& options, const Image& image) {
   std::exception_ptr failure;
@@ -105,7 +114,7 @@ void write_outputs(const RenderOptions& options, const Image& image) {
       if (std::filesystem::path(output).extension() == ".exr") {
         write_exr(output, image);
       } else {
-        write_png(output, image, {options.exposure, options.tone == "none" ? Tone::none : Tone::filmic});
+        write_png(output, image, looks_of(options));
       }
     } catch (...) {
       if (!failure) failure = std::current_exception();
@@ -114,35 +123,82 @@ void write_outputs(const RenderOptions& options, const Image& image) {
   if (failure) std::rethrow_exception(failure);
 }
 
-void render_scene(const RenderOptions& options) {
-  std::optional<Film> film;
-  if (!options.size.empty()) film = film_size(options.size);
-  check_outputs(options.outputs);
-  Scene scene = scene_of(options.scene, options.quiet);
-  if (film) scene.film = *film;
-  check_memory(scene.film);
-  const Geometry geometry(scene);
+/// A picture to be made: all that must be right before work begins.
+struct Job {
+  Scene scene;
+  std::optional<Geometry> geometry;
   RenderSettings settings;
-  settings.integrator = options.integrator.empty() ? scene.integrator.name : options.integrator;
-  settings.spp = options.spp > 0 ? options.spp : scene.integrator.spp;
-  settings.max_depth = scene.integrator.max_depth;
-  settings.threads = options.threads;
-  settings.seed = options.seed;
-  Image image;
-  {
-    heed_signals();
-    ProgressBar bar(options.quiet);
-    image = render(
-        scene, geometry, settings,
-        [&](const RenderProgress& p) {
-          char detail[64] = "";
-          if (p.noise > 0.0) std::snprintf(detail, sizeof detail, "%d samples, noise %.1f %%", p.spp, 100.0 * p.noise);
-          bar.show(p.fraction, p.seconds, detail);
-        },
-        &interrupted);
+  CheckpointSubject subject;
+  std::optional<FilmKeeper> keeper;  // the chief's
+  SampleFilm samples{1, 1};
+
+  /// Throws Fault.
+  Job(const RenderOptions& options, bool chief, InstructionSet common) {
+    std::optional<Film> film;
+    if (!options.size.empty()) film = film_size(options.size);
+    if (chief) check_outputs(options.outputs);
+    scene = scene_of(options.scene, options.quiet || !chief);
+    if (film) scene.film = *film;
+    check_memory(scene.film);
+    geometry.emplace(scene);
+    settings.integrator = options.integrator.empty() ? scene.integrator.name : options.integrator;
+    settings.spp = options.spp > 0 ? options.spp : scene.integrator.spp;
+    settings.max_depth = scene.integrator.max_depth;
+    settings.threads = options.threads;
+    settings.seed = options.seed;
+    apply(options.long_work, options.spp > 0, settings);
+    subject = subject_of(scene, settings, common);
+    if (!chief) return;
+    keeper.emplace(options.long_work, subject, [&](const std::filesystem::path& file, const SampleFilm& now) {
+      write_png(file, developed(now, settings, false), looks_of(options));
+    });
+    samples = keeper->film();
   }
-  write_outputs(options, image);
-  if (interrupted) {
+  Job(const Job&) = delete;
+  Job& operator=(const Job&) = delete;
+};
+
+/// True where the picture came to its end.
+bool carry_out(Job& job, const RenderOptions& options, Company& company) {
+  heed_signals();
+  ProgressBar bar(options.quiet);
+  RenderHooks hooks;
+  hooks.report = [&](const RenderProgress& p) {
+    char detail[64] = "";
+    if (p.noise > 0.0) std::snprintf(detail, sizeof detail, "%d samples, noise %.1f %%", p.spp, 100.0 * p.noise);
+    bar.show(p.fraction, p.seconds, detail);
+  };
+  hooks.wants_film = [&] { return job.keeper->is_due(); };
+  hooks.save = [&](const SampleFilm& now) { job.keeper->save(now); };
+  hooks.stop = &interrupted;
+  hooks.helpers = company.helpers();
+  const bool ended = render(job.scene, *job.geometry, job.settings, job.samples, hooks);
+  company.dismiss();
+  return ended;
+}
+
+void render_scene(const RenderOptions& options) {
+  Company company;
+  std::optional<Job> job;
+  const InstructionSet common = company.common_instruction_set(options.quiet);
+  company.together([&] { job.emplace(options, company.chief(), common); });
+  company.agree_on(written(job->subject).dump(), "picture");
+  if (!company.chief()) {
+    company.serve(job->scene, *job->geometry, job->settings);
+    return company.leave();
+  }
+  const bool ended = carry_out(*job, options, company);
+  // Both, even if one cannot be written.
+  std::exception_ptr failure;
+  try {
+    job->keeper->finish(job->samples);
+  } catch (...) {
+    failure = std::current_exception();
+  }
+  write_outputs(options, developed(job->samples, job->settings, ended));
+  if (failure) std::rethrow_exception(failure);
+  company.leave();
+  if (!ended) {
     if (!options.quiet) std::fprintf(stderr, "stopped; the picture has the samples taken until then\n");
     throw CLI::RuntimeError(128 + stopping_signal);
   }
@@ -157,20 +213,22 @@ void add_render(CLI::App& app) {
   command
       ->add_option("-o,--output", options->outputs,
                    "Where to write: .exr (all layers, linear) or .png (to look at); may be given twice")
+      ->allow_extra_args(false)  // what follows the name is an argument of its own, such as the scene
       ->required();
   command->add_option("--spp", options->spp, "Samples per pixel: four times as many halve the noise")
-      ->check(CLI::Range(1, 1 << 24));
+      ->check(whole_within(1, 1 << 24));
   command->add_option("--size", options->size, "Width and height in pixels, such as 1280x720");
   command
       ->add_option("--integrator", options->integrator,
                    "path: all light, noisy at first; single: one scattering, no noise")
-      ->check(CLI::IsMember(std::vector<std::string>(integrator_names.begin(), integrator_names.end())));
+      ->check(word_of({integrator_names.begin(), integrator_names.end()}));
   command->add_option("--exposure", options->exposure, "Brighter (+) or darker (-) in stops, .png only (default 0)")
       ->check(number_within(-60.0, 60.0));
   command->add_option("--tone", options->tone, "filmic (default): highlights roll off; none: cut at white; .png only")
-      ->check(CLI::IsMember(std::vector<std::string>(tone_names.begin(), tone_names.end())));
+      ->check(word_of({tone_names.begin(), tone_names.end()}));
   add_threads(*command, options->threads);
   add_seed(*command, options->seed);
+  add_long_work(*command, options->long_work);
   command->add_flag("--quiet", options->quiet, "No progress, no warnings");
   command->footer(
       "A scene is a .scene.json, or a .glb or .gltf of any modelling program. Ctrl-C stops early and writes the "

@@ -31,17 +31,15 @@ struct ProfileWords {
     const Vector size = b.max - b.min;
     return "box of " + length_text(size.x) + " x " + length_text(size.y) + " x " + length_text(size.z);
   }
-  /// Profiles that say nothing here yet.
-  template <class Other>
-  std::string operator()(const Other&) const {
-    return std::string(Other::name);
+  std::string operator()(const NoiseProfile& n) const {
+    return "noise of " + length_text(n.scale) + ", \u00B1 " + std::to_string(std::lround(100.0 * n.contrast)) + " %";
   }
 };
 
 std::string profile_text(const std::vector<Profile>& profiles) {
   std::string text;
   for (const Profile& profile : profiles) {
-    text += (text.empty() ? "" : ", ") + std::visit(ProfileWords{}, profile);
+    text += (text.empty() ? "" : " x ") + std::visit(ProfileWords{}, profile);
   }
   return text;
 }

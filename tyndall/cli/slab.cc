@@ -7,6 +7,7 @@
 
 #include "tyndall/cli/arguments.h"
 #include "tyndall/cli/commands.h"
+#include "tyndall/cli/number_list.h"
 #include "tyndall/cli/table.h"
 #include "tyndall/cli/warnings.h"
 #include "tyndall/document/named_medium.h"
@@ -16,8 +17,7 @@ namespace tyndall {
 namespace {
 
 struct SlabOptions {
-  std::string medium, thickness, illumination = "beam";
-  std::vector<double> mu;
+  std::string medium, thickness, mu_text, illumination = "beam";
   double mu0 = 1.0, ground = 0.0;
   std::uint32_t spp = 1000000;
   std::uint64_t seed = 1;
@@ -79,20 +79,18 @@ void print_table(const SlabRequest& request, const SlabResult& result) {
 void slab(const SlabOptions& options) {
   SlabRequest request;
   request.thickness = thickness_of(options.thickness);
-  for (const double mu : options.mu) {
-    if (!(mu > 0.0 && mu <= 1.0)) throw Fault("--mu", "the number " + value_text(mu), "cosines above 0, to 1");
-  }
+  request.mu = numbers_from(options.mu_text, "--mu", 1e-6, 1.0);
   const MediumFile file = read_named_medium(options.medium, options.allow_path).file;
   request.medium = compile(file, options.medium);
-  request.mu = options.mu;
   request.diffuse = options.illumination == "diffuse";
   request.mu0 = options.mu0;
   request.ground = options.ground;
   request.paths = options.spp;
   request.seed = options.seed;
   request.threads = options.threads;
-  if (const std::string objection = slab_objection(request); !objection.empty()) {
-    throw Fault("slab", "a layer whose light cannot be computed", objection);
+  if (const auto objection = slab_objection(request)) {
+    const bool medium = objection->field == "medium";
+    throw Fault(medium ? place(options.medium) : "--" + objection->field, objection->found, objection->expected);
   }
   warn(file, options.medium);
   const SlabResult result = solve_slab(request);
@@ -108,17 +106,16 @@ void add_slab(CLI::App& app) {
   command->add_option("--thickness", options->thickness, "Thickness of the layer in metres, or inf")->required();
   command->add_option("--mu0", options->mu0, "Cosine of the beam to the vertical: 1 (default) is straight down")
       ->check(number_within(1e-6, 1.0));
-  command->add_option("--mu", options->mu, "Cosines at which to print the radiance that leaves")
-      ->delimiter(',')
-      ->check(number_within(1e-6, 1.0));
+  command->add_option("--mu", options->mu_text, "Cosines at which to print the radiance that leaves")
+      ->type_name("MU,..");
   command->add_option("--ground", options->ground, "Albedo of the floor below; 0 (default) is black")
       ->check(number_within(0.0, 1.0));
   command
       ->add_option("--illumination", options->illumination, "beam (default), or diffuse: the same from the whole sky")
-      ->check(CLI::IsMember({"beam", "diffuse"}));
+      ->check(word_of({"beam", "diffuse"}));
   command
       ->add_option("--spp", options->spp, "Light paths to trace (default 1000000); four times as many halve the error")
-      ->check(CLI::Range(1u, 4000000000u));
+      ->check(whole_within(1, 4000000000u));
   add_seed(*command, options->seed);
   add_threads(*command, options->threads);
   add_allow_path(*command, options->allow_path);
@@ -126,7 +123,9 @@ void add_slab(CLI::App& app) {
   command->footer(
       "A beam enters the top of a flat layer, black outside; all orders of scattering. Numbers are shares of the "
       "light\n"
-      "on the layer; R(mu) and T(mu) are exit radiances, I = R mu0 E / pi for a beam of irradiance E.\n\n"
+      "on the layer; R(mu) and T(mu) are exit radiances, I = R mu0 E / pi for a beam of irradiance E. With --json "
+      "each\n"
+      "has its own standard_error: reflectance, transmittance_diffuse, and with --mu reflection and transmission.\n\n"
       "Example: tyndall slab examples/media/harbour_fog.medium.json --thickness 100 --mu0 0.3");
   command->callback([options] { slab(*options); });
 }

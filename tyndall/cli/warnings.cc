@@ -5,7 +5,7 @@
 namespace tyndall {
 
 void warn(const MediumFile& medium, const std::string& file) {
-  for (const Remark& remark : remarks_on(dials_in_metres(medium))) {
+  for (const Remark& remark : remarks_on(medium)) {
     std::cerr << "warning: " << remark_text(remark, file) << '\n';
   }
 }

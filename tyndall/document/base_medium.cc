@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "tyndall/document/file_kind.h"
 #include "tyndall/document/json_locator.h"
 #include "tyndall/document/medium_file.h"
 #include "tyndall/document/merged_json.h"
@@ -37,15 +38,16 @@ std::pair<JsonText, std::string> base_named(const JsonText& json, const std::str
                 "a medium file, or " + one_of(name, preset_names()));
   }
   const fs::path path = referenced_file(json.references->naming, name, json.references->allow_path, where);
-  return {read_json(path, json.references->allow_path), identity_of(path)};
+  refuse_other_kinds(path, FileKind::medium);
+  JsonText text = read_json(path, json.references->allow_path);
+  refuse_other_kinds(text, FileKind::medium);
+  return {std::move(text), identity_of(path)};
 }
 
 /// The base's members, with lengths in units of `meters_per_unit`.
 Json in_unit(const JsonText& base, const MediumFile& file, double meters_per_unit) {
   if (file.meters_per_unit == meters_per_unit) return base.root;
-  MediumFile converted = file;
-  static_cast<MediumDials&>(converted) =
-      in_metres(static_cast<const MediumDials&>(file), file.meters_per_unit / meters_per_unit);
+  MediumFile converted = in_metres(file, file.meters_per_unit / meters_per_unit);
   converted.meters_per_unit = meters_per_unit;
   return Json::parse(medium_to_json(converted));
 }
@@ -71,6 +73,16 @@ void drop_overridden(Json& sources, const Json& upper) {
     return true;
   };
   sources.erase(std::remove_if(sources.begin(), sources.end(), overridden), sources.end());
+}
+
+/// Whether a source is of something that stands in `medium`.
+bool is_of_part(const Json& source, const Json& medium) {
+  const auto of = source.find("of");
+  try {
+    return of != source.end() && of->is_string() && medium.contains(Json::json_pointer(of->get<std::string>()));
+  } catch (const Json::parse_error&) {  // no pointer at all: for people only
+    return false;
+  }
 }
 
 void resolve(JsonText& json, const std::string& pointer, std::vector<std::string> chain) {
@@ -108,7 +120,15 @@ void resolve(JsonText& json, const std::string& pointer, std::vector<std::string
   if (json.bases.empty()) json.own = json.root;
   Json upper = here;
   upper.erase("base");
-  here = merged_members<MediumFile>(below, upper);
+  Json whole = merged_members<MediumFile>(below, upper);
+  if (!upper.contains("sources") && whole.contains("sources") && whole["sources"].is_array()) {
+    // Nor are there sources of what was taken away.
+    Json& sources = whole["sources"];
+    sources.erase(std::remove_if(sources.begin(), sources.end(),
+                                 [&](const Json& s) { return is_of_part(s, below) && !is_of_part(s, whole); }),
+                  sources.end());
+  }
+  here = std::move(whole);
   json.bases.emplace(pointer, std::make_shared<const JsonText>(std::move(base)));
 }
 

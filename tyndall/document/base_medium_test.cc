@@ -112,13 +112,33 @@ TEST_F(BaseMedium, ObjectsMergeListsAreReplacedNullTakesAway) {
   EXPECT_EQ(simple.w, 0.9);
   EXPECT_FALSE(simple.veil);
   EXPECT_NEAR(extinction_of(simple.thickness)[1], -std::log(0.02) / 300.0, 1e-15);  // its contrast is the base's
-  EXPECT_TRUE(std::holds_alternative<LayerProfile>(*simple.profile));  // another law replaces the whole profile
+  EXPECT_TRUE(
+      std::holds_alternative<LayerProfile>(simple.profile->all.at(0)));  // another law replaces the whole profile
   ASSERT_EQ(file.species.size(), 1U);
   // Sources of numbers that the variant states are no longer true.
   EXPECT_TRUE(file.sources.empty());
   const MediumFile whiter = read_medium_file(variant("w.medium.json", "fog.medium.json", R"("conditions": {"w": 1})"));
   ASSERT_EQ(whiter.sources.size(), 1U);
   EXPECT_EQ(whiter.sources[0].of, "/conditions/thickness");
+}
+
+TEST_F(BaseMedium, AListOfProfilesIsReplacedWhole) {
+  write("fog.medium.json", fog);
+  write("patchy.medium.json", R"({"format": "tyndall-medium/1", "base": "fog.medium.json", "conditions": {"profile": [
+    {"law": "exponential", "scale_height": 20}, {"law": "noise", "scale": 5}]}})");
+  const auto profiles_of = [&](const char* base, const std::string& profile) {
+    const MediumFile file =
+        read_medium_file(variant("v.medium.json", base, R"("conditions": {"profile": )" + profile + '}'));
+    return *std::get<Simple>(*file.conditions).profile;
+  };
+  const Profile exponential = ExponentialProfile{20.0, 0.0}, sphere = SphereProfile{{}, 3.0};
+  EXPECT_EQ(profiles_of("patchy.medium.json", R"([{"law": "sphere", "center": [0, 0, 0], "radius": 3}])"),
+            Profiles(sphere));
+  EXPECT_EQ(profiles_of("patchy.medium.json", R"({"law": "sphere", "center": [0, 0, 0], "radius": 3})"),
+            Profiles(sphere));
+  // One profile is merged with one only: which of several a number is for could not be told.
+  EXPECT_EQ(profiles_of("fog.medium.json", R"({"scale_height": 20})"), Profiles(exponential));
+  EXPECT_THROW(profiles_of("patchy.medium.json", R"({"scale_height": 30})"), Fault);
 }
 
 TEST_F(BaseMedium, AnotherModelAnotherFormAndAnotherDialReplace) {

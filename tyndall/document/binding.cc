@@ -70,4 +70,11 @@ void check_keys(const JsonCursor& at, const std::vector<std::string_view>& keys,
   }
 }
 
+void check_not_both(const JsonCursor& at, const Demand& demand) {
+  if (demand.kind != Demand::Kind::not_both) return;
+  const std::string first(demand.names[0]), second(demand.names[1]);
+  if (!at.value().contains(first) || !at.value().contains(second)) return;
+  throw at.at(second).fault(second + " beside " + first, "one or the other");
+}
+
 }  // namespace tyndall

@@ -8,10 +8,10 @@
 //   const auto in_si = in_metres(mine, meters_per_unit);      // artist/dials.h: scales what has a Scaling
 //
 // Members may be: double, int, bool, std::string, a one-of, Spectrum (a number means grey), Vector ([x,y,z]),
-// std::array<double, N>, NumberFile (read when it is named), std::optional, std::vector, a described struct, or a
-// choice (std::variant). Values are kept as written: nothing is scaled while reading. Every error is a Fault with file,
-// line and pointer: wrong types, numbers out of range, missing and unknown keys (with the nearest spelling), and what
-// objection_to() objects to.
+// std::array<double, N>, NumberFile (read when it is named), std::optional, std::vector, OneOrMore, a described struct,
+// or a choice (std::variant). Values are kept as written: nothing is scaled while reading. Every error is a Fault with
+// file, line and pointer: wrong types, numbers out of range, missing and unknown keys (with the nearest spelling), and
+// what objection_to() objects to.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -20,6 +20,7 @@
 #include "tyndall/document/json_text.h"
 #include "tyndall/document/spelling.h"
 #include "tyndall/geometry/vector.h"
+#include "tyndall/number/demand.h"
 #include "tyndall/number/described.h"
 #include "tyndall/number/number_file.h"
 
@@ -38,6 +39,9 @@ NumberFile read_number_file(const JsonCursor& at, const FieldFacts& facts);
 std::size_t read_word(const JsonCursor& at, const std::vector<std::string_view>& words);
 /// A Fault where this is not an object, or has a key that is neither among `keys` nor the tag.
 void check_keys(const JsonCursor& at, const std::vector<std::string_view>& keys, std::string_view tag);
+/// A Fault where the object here has both of the keys that a demand excludes: an empty list beside a file, which once
+/// read is as if it were not there.
+void check_not_both(const JsonCursor& at, const Demand& demand);
 
 /// What a field of type T may hold, for messages.
 template <class T>
@@ -65,6 +69,11 @@ std::string expected_value(const FieldFacts& facts) {
     return one_of("", {words.begin(), words.end()}) + about;
   } else if constexpr (ListMember<T>) {
     return "a list" + about;
+  } else if constexpr (OneOrMoreMember<T>) {
+    using Element = typename decltype(T::all)::value_type;
+    FieldFacts plain = facts;
+    plain.text = "";
+    return expected_value<Element>(plain) + ", or a list of 1 to " + std::to_string(T::most) + " such" + about;
   } else if constexpr (NamedChoice<T>) {
     std::vector<std::string_view> names;
     for_each_alternative<T>([&]<class A>(std::type_identity<A>) { names.push_back(A::name); });
@@ -111,6 +120,9 @@ void read_object(const JsonCursor& at, T& out, std::string_view tag = "") {
   });
   if constexpr (requires { objection_to(out); }) {
     if (const std::optional<Objection> objection = objection_to(out)) throw at.fault_below(*objection);
+  }
+  if constexpr (requires { demands_of(out); }) {
+    for (const Demand& demand : demands_of(out)) check_not_both(at, demand);
   }
 }
 
@@ -190,6 +202,20 @@ void read_list(const JsonCursor& at, const FieldFacts& facts, std::vector<T>& ou
   for (std::size_t i = 0; i < at.value().size(); ++i) read_value(at.at(i), facts, out.emplace_back());
 }
 
+/// One, or a list of one to most.
+template <class T>
+void read_one_or_more(const JsonCursor& at, const FieldFacts& facts, OneOrMore<T>& out) {
+  if (!at.value().is_array()) {
+    if (!at.value().is_object()) throw at.wrong_type(expected_value<OneOrMore<T>>(facts));
+    out.all.assign(1, T{});
+    return read_value(at, facts, out.all.front());
+  }
+  if (at.value().empty() || at.value().size() > OneOrMore<T>::most) {
+    throw at.wrong_type(expected_value<OneOrMore<T>>(facts));
+  }
+  read_list(at, facts, out.all);
+}
+
 /// Exactly `count` numbers in a list.
 template <class Put>
 void read_numbers(const JsonCursor& at, const FieldFacts& facts, std::size_t count, const std::string& expected,
@@ -232,6 +258,8 @@ void read_value(const JsonCursor& at, const FieldFacts& facts, T& out) {
     read_value(at, facts, out.emplace());
   } else if constexpr (ListMember<T>) {
     read_list(at, facts, out);
+  } else if constexpr (OneOrMoreMember<T>) {
+    read_one_or_more(at, facts, out);
   } else if constexpr (NamedChoice<T>) {
     read_named_choice(at, facts, out);
   } else if constexpr (Choice<T>) {

@@ -7,7 +7,6 @@
 #include <functional>
 #include <set>
 
-#include "tests/shared_folder.h"
 #include "tyndall/artist/random_dials_test.h"
 #include "tyndall/document/binding.h"
 #include "tyndall/document/json_locator.h"
@@ -377,6 +376,27 @@ TEST(MediumFile, ASchemaBesideItIsFoundFromItsNewPlace) {
   EXPECT_FALSE(without.schema);
 }
 
+TEST(MediumFile, SeveralProfilesAreAListAndOneIsItself) {
+  const auto read = [](const std::string& profile) {
+    return medium_from_json(R"({"format": "tyndall-medium/1", "meters_per_unit": 0.01,
+      "species": [{"scattering": 1, "profile": )" +
+                                profile + "}]}",
+                            "t");
+  };
+  const std::string height = R"({ "law": "exponential", "scale_height": 250, "base": 0 })";
+  const std::string noise =
+      R"({ "law": "noise", "scale": 50, "octaves": 4, "contrast": 0.5, "seed": 0, "wind": [1, 0, 0] })";
+  const MediumFile both = read("[" + height + ", " + noise + "]");
+  EXPECT_EQ(compile(both).species.at(0).profiles,
+            (std::vector<Profile>{ExponentialProfile{2.5, 0.0}, NoiseProfile{0.5, 4, 0.5, 0, {0.01, 0.0, 0.0}}}));
+  EXPECT_THAT(medium_to_json(both), HasSubstr("\"profile\": [\n"));
+  EXPECT_EQ(medium_to_json(medium_from_json(medium_to_json(both), "again")), medium_to_json(both));
+  // A list of one means the same as the one, and is written as that.
+  const MediumFile one = read(height), listed = read("[" + height + "]");
+  EXPECT_TRUE(same(one, listed));
+  EXPECT_THAT(medium_to_json(listed), HasSubstr("\"profile\": " + height));
+}
+
 TEST(Blended, TakesEachFileInItsOwnUnit) {
   const MediumFile a = harbour_fog();
   MediumFile b = a, b_in_cm = a;
@@ -406,65 +426,6 @@ TEST(Blended, ResultsCanBeWrittenAndRead) {
       EXPECT_TRUE(same(between, medium_from_json(medium_to_json(between), "t")));
     }
   }
-}
-
-TEST(Acceptance, TheNotesWAgrees) {
-  TYNDALL_NEEDS_SHARED_FILE(truth, "acceptance/public.json");
-  const Json all = Json::parse(std::ifstream(truth));
-  for (const Json& item : all.at("seed_w_blend").at("items")) {
-    const double w = item.at("w");
-    const HazyMurky k = simple_strengths(w);
-    EXPECT_EQ(k.hazy, item.at("k_MH").get<double>());
-    EXPECT_EQ(k.murky, item.at("k_MM").get<double>());
-    const Simple model{w, PlainExtinction{Spectrum::grey(1.0)}, Spectrum::grey(1.0), {}, {}, {}};
-    const auto compiled = compile(MediumDials{std::nullopt, model, {}});
-    const MediumSummary summary = summary_of(std::get<Medium>(compiled));
-    EXPECT_NEAR(summary.extinction[1], item.at("sum").get<double>(), 1e-15);
-    if (item.at("g_eff").is_null()) {
-      EXPECT_TRUE(std::isnan(summary.mean_cosine[1]));
-    } else {
-      EXPECT_NEAR(summary.mean_cosine[1], item.at("g_eff").get<double>(), 1e-14);
-    }
-  }
-}
-
-TEST(Acceptance, StandardAirAgrees) {
-  TYNDALL_NEEDS_SHARED_FILE(truth, "acceptance/public.json");
-  const Json all = Json::parse(std::ifstream(truth));
-  int checked = 0;
-  for (const Json& item : all.at("rayleigh_air").at("items")) {
-    if (!item.contains("lambda_um")) continue;
-    const double nm = 1e3 * item.at("lambda_um").get<double>();
-    const auto near = [](double got, double expected) { EXPECT_NEAR(got, expected, 1e-7 * expected); };
-    near(air_refractivity(nm), item.at("n-1"));
-    near(king_factor(nm), item.at("king"));
-    near(standard_air_scattering(nm), item.at("beta_m-1"));
-    MediumFile file;
-    file.background.emplace().air = Air::standard;
-    file.channels = ChannelWavelengths{{nm, nm, nm}};
-    near(summary_of(compile(file)).scattering[1], item.at("beta_m-1"));
-    ++checked;
-  }
-  EXPECT_GE(checked, 5);
-}
-
-TEST(Acceptance, VisibilityAgrees) {
-  TYNDALL_NEEDS_SHARED_FILE(truth, "acceptance/public.json");
-  const Json all = Json::parse(std::ifstream(truth));
-  int checked = 0;
-  for (const Json& item : all.at("visibility").at("items")) {
-    const double contrast = item.at("eps");
-    if (item.contains("V_times_sigma")) {
-      EXPECT_NEAR(visibility_of(1.0, contrast), item.at("V_times_sigma").get<double>(), 1e-14);
-      ++checked;
-      continue;
-    }
-    const double metres = item.at("V_m"), sigma = item.at("sigma");
-    EXPECT_NEAR(extinction_of(Visibility{Spectrum::grey(metres), contrast})[0], sigma, 1e-13 * sigma);
-    EXPECT_NEAR(visibility_of(sigma, contrast), metres, 1e-13 * metres);
-    ++checked;
-  }
-  EXPECT_GE(checked, 6);
 }
 
 }  // namespace

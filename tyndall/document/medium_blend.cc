@@ -1,6 +1,5 @@
 #include "tyndall/document/medium_blend.h"
 
-#include "tyndall/artist/morph.h"
 #include "tyndall/document/spelling.h"
 
 namespace tyndall {
@@ -19,21 +18,17 @@ MediumFile blended(const MediumFile& a, const MediumFile& b, double t, BlendHow 
   if (!(t >= 0.0 && t <= 1.0)) {
     throw Fault(name_for_messages, "the share " + short_number(t), "a number from 0 to 1");
   }
+  if (a.keyframes || b.keyframes) {
+    return blended(at_time(a, 0.0, name_for_messages), at_time(b, 0.0, name_for_messages), t, how, name_for_messages);
+  }
   if (t == 0.0) return a;
   if (t == 1.0) return b;
   MediumFile out = a;
   out.name = name_between(a, b, t);
   out.description.reset();
   out.sources.clear();  // of other numbers
-  Blend blend;
-  if (how == BlendHow::interpolate) {
-    // In a's units throughout, so that a's dials stay the numbers that were typed.
-    blend = interpolate(a, in_metres(static_cast<const MediumDials&>(b), b.meters_per_unit / a.meters_per_unit), t,
-                        a.meters_per_unit);
-  } else {
-    blend = (how == BlendHow::mix ? mix : morph)(dials_in_metres(a), dials_in_metres(b), t);
-    if (auto* dials = std::get_if<MediumDials>(&blend)) *dials = in_metres(*dials, 1.0 / a.meters_per_unit);
-  }
+  const MediumDials other = in_metres(static_cast<const MediumDials&>(b), b.meters_per_unit / a.meters_per_unit);
+  Blend blend = blended(static_cast<const MediumDials&>(a), other, t, how, a.meters_per_unit);
   if (const auto* objection = std::get_if<Objection>(&blend)) {
     throw Fault(place(name_for_messages, 0, objection->field.empty() ? "" : '/' + objection->field), objection->found,
                 objection->expected);

@@ -2,6 +2,7 @@
 
 #include "tyndall/document/base_medium.h"
 #include "tyndall/document/binding.h"
+#include "tyndall/document/file_kind.h"
 #include "tyndall/document/number_rows.h"
 #include "tyndall/document/reference.h"
 #include "tyndall/document/spelling.h"
@@ -10,12 +11,62 @@
 namespace tyndall {
 namespace {
 
-/// What keeps a file's dials from being a medium, with a path below the file.
+/// The medium of a file without keyframes, or what keeps its dials from being one, with a path below the file.
 std::variant<Medium, Objection> compile_or_object(const MediumFile& file) {
   if (auto objection = unusable_number(file)) return *objection;
   const MediumDials si = dials_in_metres(file);
   if (auto objection = unusable_number(si)) return *objection;
   return compile(si);
+}
+
+/// The file with the conditions of one of its keys.
+MediumFile with_key(const MediumFile& file, std::size_t key) {
+  MediumFile out = file;
+  out.keyframes.reset();
+  out.conditions = (*file.keyframes)[key].conditions;
+  return out;
+}
+
+/// The file as it is at a time, or what keeps it from being a medium then.
+std::variant<MediumFile, Objection> at_time_or_object(const MediumFile& file, double time) {
+  const Keyframes& keys = *file.keyframes;
+  const KeyInterval at = interval_at(keys, time);
+  MediumFile out = with_key(file, at.from);
+  Blend blend = dials_at(file, keys, time, file.meters_per_unit);
+  if (auto* objection = std::get_if<Objection>(&blend)) return std::move(*objection);
+  static_cast<MediumDials&>(out) = std::get<MediumDials>(std::move(blend));
+  const auto compiled = compile_or_object(out);
+  if (const auto* objection = std::get_if<Objection>(&compiled)) {
+    Objection there = of_key(*objection, at.share > 0.0 ? at.to : at.from);
+    if (at.share > 0.0) there.found += ", " + short_number(time) + " s, on the way to this key";
+    return there;
+  }
+  return out;
+}
+
+/// What keeps a file from being a medium, at a key or half way to it.
+std::optional<Objection> objection_to_medium(const MediumFile& file) {
+  if (!file.keyframes) {
+    auto compiled = compile_or_object(file);
+    if (auto* objection = std::get_if<Objection>(&compiled)) return std::move(*objection);
+    return std::nullopt;
+  }
+  if (auto objection = unusable_number(file)) return objection;
+  const Keyframes& keys = *file.keyframes;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    std::vector<double> times{keys[i].time};
+    if (i > 0) times.push_back(keys[i - 1].time + 0.5 * (keys[i].time - keys[i - 1].time));
+    for (const double time : times) {
+      auto there = at_time_or_object(file, time);
+      if (auto* objection = std::get_if<Objection>(&there)) return std::move(*objection);
+    }
+  }
+  return std::nullopt;
+}
+
+Fault fault_of(const Objection& objection, const std::string& name_for_messages) {
+  return {place(name_for_messages, 0, objection.field.empty() ? "" : '/' + objection.field), objection.found,
+          objection.expected};
 }
 
 /// The name by which `naming` could refer to a file of numbers; none where it cannot, or where the file has changed.
@@ -50,8 +101,7 @@ void move_references(Law<double>& law, const std::filesystem::path& naming) {
 MediumFile medium_file_at(const JsonCursor& at) {
   MediumFile file;
   read_value(at, FieldFacts{}, file);
-  const auto compiled = compile_or_object(file);
-  if (const auto* objection = std::get_if<Objection>(&compiled)) throw at.fault_below(*objection);
+  if (const auto objection = objection_to_medium(file)) throw at.fault_below(*objection);
   return file;
 }
 
@@ -62,18 +112,39 @@ MediumFile medium_from_json(std::string text, const std::string& name_for_messag
 }
 
 MediumFile read_medium_file(const std::filesystem::path& file, bool allow_path) {
+  refuse_other_kinds(file, FileKind::medium);
   JsonText json = read_json(file, allow_path);
+  refuse_other_kinds(json, FileKind::medium);
   resolve_base(json);
   return medium_file_at(JsonCursor(json));
 }
 
+MediumFile at_time(const MediumFile& file, double time, const std::string& name_for_messages) {
+  if (!file.keyframes) return file;
+  auto there = at_time_or_object(file, time);
+  if (const auto* objection = std::get_if<Objection>(&there)) throw fault_of(*objection, name_for_messages);
+  auto& out = std::get<MediumFile>(there);
+  std::erase_if(out.sources, [](const Source& source) { return source.of.rfind("/keyframes", 0) == 0; });
+  return std::move(out);
+}
+
 Medium compile(const MediumFile& file, const std::string& name_for_messages) {
-  auto compiled = compile_or_object(file);
-  if (const auto* objection = std::get_if<Objection>(&compiled)) {
-    throw Fault(place(name_for_messages, 0, objection->field.empty() ? "" : '/' + objection->field), objection->found,
-                objection->expected);
-  }
+  auto compiled = compile_or_object(file.keyframes ? at_time(file, 0.0, name_for_messages) : file);
+  if (const auto* objection = std::get_if<Objection>(&compiled)) throw fault_of(*objection, name_for_messages);
   return std::get<Medium>(std::move(compiled));
+}
+
+std::vector<Remark> remarks_on(const MediumFile& file) {
+  std::vector<Remark> out = remarks_on(dials_in_metres(file));
+  for (std::size_t i = 0; file.keyframes && i < file.keyframes->size(); ++i) {
+    MediumDials alone;
+    alone.conditions = (*file.keyframes)[i].conditions;
+    for (Remark& remark : remarks_on(in_metres(alone, file.meters_per_unit))) {
+      remark.field = "keyframes/" + std::to_string(i) + '/' + remark.field;
+      out.push_back(std::move(remark));
+    }
+  }
+  return out;
 }
 
 MediumDials dials_in_metres(const MediumFile& file) {

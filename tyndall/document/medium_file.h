@@ -6,7 +6,7 @@
 #include <string>
 #include <variant>
 
-#include "tyndall/artist/medium_dials.h"
+#include "tyndall/artist/keyframes.h"
 #include "tyndall/document/json_text.h"
 #include "tyndall/document/source.h"
 #include "tyndall/document/writing.h"
@@ -28,6 +28,7 @@ struct MediumFile : MediumDials {
   std::optional<std::string> description;
   std::vector<Source> sources;  // of its numbers; not computed with
   double meters_per_unit = 1.0;
+  std::optional<Keyframes> keyframes;  // then there are no `conditions`
   static constexpr auto fields() {
     return std::tuple_cat(
         std::tuple{
@@ -38,9 +39,24 @@ struct MediumFile : MediumDials {
             Field{"sources", &MediumFile::sources, any_number, "", "Where its numbers come from."},
             Field{"meters_per_unit", &MediumFile::meters_per_unit, positive, "m",
                   "The file's unit of length: 1 for metres, 0.01 for centimetres."}},
-        MediumDials::fields());
+        MediumDials::fields(),
+        std::tuple{
+            Field{"keyframes", &MediumFile::keyframes, any_number, "",
+                  "Instead of conditions: weather that changes in time, by its states at some times. Between them "
+                  "it is blended, before the first and after the last it stays."}});
   }
 };
+
+inline std::optional<Objection> objection_to(const MediumFile& file) {
+  if (!file.keyframes) return std::nullopt;
+  if (file.conditions) {
+    return Objection{"keyframes", "keyframes beside conditions", "one or the other: each key has its own conditions"};
+  }
+  return objection_to_keys(*file.keyframes);
+}
+constexpr auto demands_of(const MediumFile&) {
+  return std::array{not_both("conditions", "keyframes"), sized("keyframes", 1, most_keyframes)};
+}
 
 /// The channels' meaning, stated or not.
 inline ChannelTag channels_of(const MediumFile& file) { return file.channels.value_or(ChannelTag{ChannelSpace{}}); }
@@ -52,16 +68,23 @@ MediumFile medium_from_json(std::string text, const std::string& name_for_messag
 /// Files that it names must be below its folder unless `allow_path`.
 MediumFile read_medium_file(const std::filesystem::path& file, bool allow_path = false);
 
-/// The medium in SI. Throws Fault {`name_for_messages`, ...} where the dials contradict each other; never for a file as
-/// read.
+/// The file as it is at a time [s], without keyframes. Throws Fault {`name_for_messages`, ...} where there is no medium
+/// between two keys (a visibility that is held, out of reach on the way); never for a file without keyframes.
+MediumFile at_time(const MediumFile& file, double time, const std::string& name_for_messages = "medium");
+
+/// The medium in SI, one with keyframes as it is at time 0. Throws Fault {`name_for_messages`, ...} where the dials
+/// contradict each other; never for a file as read.
 Medium compile(const MediumFile& file, const std::string& name_for_messages = "medium");
 
-/// The dials in metres and 1/m.
+/// The dials in metres and 1/m; keyframes are left out, at_time() puts the conditions of a time in their place.
 MediumDials dials_in_metres(const MediumFile& file);
 
 /// A medium read from the file `from`, to be written as `to`: a "$schema" that names a file beside the old place names
 /// the same one from the new place. Addresses (https://..) and absolute names stay.
 void move_schema(MediumFile& file, const std::filesystem::path& from, const std::filesystem::path& to);
+
+/// Everything in a medium that is outside what physics allows, at any of its keyframes.
+std::vector<Remark> remarks_on(const MediumFile& file);
 
 /// "file:/pointer: found ..., expected ...": a remark on a medium that stands at `pointer` of the file.
 std::string remark_text(const Remark& remark, const std::string& file, const std::string& pointer = "");

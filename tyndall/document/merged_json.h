@@ -97,6 +97,8 @@ Json merged(const Json& base, const Json& upper) {
   if (!base.is_object() || !upper.is_object()) return without_nulls(upper);
   if constexpr (OptionalMember<T>) {
     return merged<typename T::value_type>(base, upper);
+  } else if constexpr (OneOrMoreMember<T>) {
+    return merged<typename decltype(T::all)::value_type>(base, upper);  // a list on either side is replaced whole
   } else if constexpr (Choice<T>) {
     return merged_choice<T>(base, upper);
   } else if constexpr (Described<T>) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <random>
 
+#include "tests/cases.h"
 #include "tyndall/artist/random_dials_test.h"
 #include "tyndall/document/law_text.h"
 #include "tyndall/document/medium_file.h"
@@ -17,7 +18,10 @@ namespace {
 bool is_read(const std::string& text) {
   try {
     const MediumFile file = medium_from_json(text, "mutant");
-    summary_of(compile(file));
+    if (!file.keyframes) summary_of(compile(file));
+    for (std::size_t i = 0; file.keyframes && i < file.keyframes->size(); ++i) {
+      summary_of(compile(at_time(file, (*file.keyframes)[i].time)));
+    }
     medium_from_json(medium_to_json(file), "again");
     return true;
   } catch (const Fault& fault) {
@@ -37,6 +41,12 @@ std::vector<std::string> good_texts() {
   for (int i = 0; i < 10; ++i) {
     MediumFile file;
     static_cast<MediumDials&>(file) = dice.medium();
+    if (i % 3 == 0 && file.conditions) {  // from the weather that there is to any other and on
+      file.keyframes = Keyframes{{-1.0, *file.conditions},
+                                 {2.5, dice.two_lobes(), BlendHow::morph},
+                                 {4.0, dice.two_lobes_explicit(), BlendHow::mix}};
+      file.conditions.reset();
+    }
     texts.push_back(medium_to_json(file));
   }
   return texts;
@@ -88,6 +98,7 @@ void survive(int count, std::uint64_t seed) {
   // Mutations that leave a file good and ones that break it both occur, or the test would say little.
   EXPECT_GT(read, count / 100);
   EXPECT_LT(read, count * 9 / 10);
+  tests::say_cases(count, "damaged files, " + std::to_string(read) + " of them still good");
 }
 
 TEST(HostileMediumFile, EveryTruncationIsAFault) {

@@ -18,6 +18,10 @@ bool is_there(const std::filesystem::path& path) {
 }
 
 Fault neither(const std::string& where, const std::string& text) {
+  if (is_law_text(text)) {
+    return {where, in_quotes(text) + ", a law of scattering",
+            "a medium file or a preset (tyndall presets lists them); tyndall phase and plot take laws"};
+  }
   return {where, in_quotes(text) + ", neither a preset nor a file",
           "a medium file, or " + one_of(text, preset_names())};
 }
@@ -28,7 +32,8 @@ bool is_bare_word(std::string_view text) { return !text.empty() && text.find_fir
 
 NamedMedium read_named_medium(const std::string& text, bool allow_path) {
   if (const Preset* preset = preset_named(text)) return read_preset(*preset);
-  if (is_bare_word(text) && !is_there(text)) throw neither("medium", text);
+  if (text.empty()) throw Fault("medium", "an empty name", "a medium file or a preset (tyndall presets lists them)");
+  if ((is_bare_word(text) || is_law_text(text)) && !is_there(text)) throw neither("medium", text);
   return {read_medium_file(text, allow_path), text};
 }
 

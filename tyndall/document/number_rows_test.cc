@@ -154,6 +154,9 @@ TEST(TableFile, IsRefusedAtItsPlace) {
     return message(R"({"law": "tabulated", "file": "t.csv"})");
   };
   EXPECT_THAT(file_message("angle,value\n0,1\n50,1\n\n40,1\n"), HasSubstr("(line 5, column 1 of the file)"));
+  folder.write("good.csv", two_columns);
+  EXPECT_THAT(message(R"({"law": "tabulated", "angles": [], "file": "good.csv"})"),
+              HasSubstr("/species/0/phase/file: found file beside angles, expected one or the other"));
   EXPECT_THAT(file_message("0,1\n50,1\n50,1\n"), HasSubstr("/species/0/phase/file"));
   EXPECT_THAT(file_message("0,1,1,1\n50,1,-1,1\n"), HasSubstr("(line 2, column 3 of the file)"));
   EXPECT_THAT(file_message("0,1\n181,1\n"), HasSubstr("line 2, column 1"));

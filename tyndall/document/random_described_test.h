@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "tyndall/artist/keyframes.h"
 #include "tyndall/color/spectrum.h"
 #include "tyndall/geometry/vector.h"
 #include "tyndall/number/demand.h"
@@ -106,10 +107,19 @@ class Chosen {
     } else if constexpr (OptionalMember<T>) {
       if (!one_in(2)) return std::nullopt;
       return value<typename T::value_type>(facts, depth);
+    } else if constexpr (std::is_same_v<T, Keyframes>) {
+      return keyframes(depth);
     } else if constexpr (ListMember<T>) {
       T list;
       for (std::size_t n = below(4); n > 0; --n) list.push_back(value<typename T::value_type>(facts, depth));
       return list;
+    } else if constexpr (OneOrMoreMember<T>) {
+      T several;
+      for (auto& element : several.all) element = value<std::remove_cvref_t<decltype(element)>>(facts, depth);
+      for (std::size_t n = one_in(3) ? 1 + below(3) : 0; n > 0; --n) {
+        several.all.push_back(value<typename decltype(T::all)::value_type>(facts, depth));
+      }
+      return several;
     } else if constexpr (Choice<T>) {
       const std::size_t chosen = depth < 4 ? below(std::variant_size_v<T>) : 0;
       std::size_t index = 0;
@@ -135,6 +145,23 @@ class Chosen {
     }
     if (!one_in(8)) std::sort(out.angles.begin(), out.angles.end());
     if (one_in(16)) out.values.pop_back();
+    return out;
+  }
+
+  /// Mostly in their order, and mostly alike where they are to be interpolated.
+  Keyframes keyframes(int depth) {
+    Keyframes out;
+    for (std::size_t n = one_in(16) ? 0 : 1 + below(3); n > 0; --n) {
+      Keyframe key = value<Keyframe>({}, depth);
+      if (!out.empty() && key.transition == BlendHow::interpolate && !one_in(8)) {
+        key.conditions = out.back().conditions;
+        if (auto* const simple = std::get_if<Simple>(&key.conditions)) simple->w = number(unit_interval);
+      }
+      out.push_back(std::move(key));
+    }
+    if (!one_in(8)) {
+      std::sort(out.begin(), out.end(), [](const Keyframe& a, const Keyframe& b) { return a.time < b.time; });
+    }
     return out;
   }
 

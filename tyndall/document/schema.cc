@@ -74,6 +74,10 @@ void add_demand(OrderedJson& schema, const Demand& demand) {
     case Demand::Kind::one_word_of:
       property()["enum"] = std::vector<std::string_view>(demand.words, demand.words + demand.word_count);
       break;
+    case Demand::Kind::sized:
+      property()["minItems"] = demand.least;
+      property()["maxItems"] = demand.most;
+      break;
   }
 }
 

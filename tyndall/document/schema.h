@@ -101,6 +101,8 @@ class SchemaBook {
       return schema_of<typename T::value_type>(facts);
     } else if constexpr (ListMember<T>) {
       return {{"type", "array"}, {"items", schema_of<typename T::value_type>(facts)}};
+    } else if constexpr (OneOrMoreMember<T>) {
+      return defined<T>(facts.name);
     } else {
       return defined<T>(facts.name);
     }
@@ -132,7 +134,9 @@ class SchemaBook {
     names_.emplace(std::pair{std::type_index(typeid(T)), partial_}, name);
     definitions_[name] = nullptr;  // its place and name, while it is being written
     OrderedJson schema;
-    if constexpr (NamedChoice<T>) {
+    if constexpr (OneOrMoreMember<T>) {
+      schema = one_or_more_schema<T>(use);
+    } else if constexpr (NamedChoice<T>) {
       schema = named_choice_schema<T>();
     } else if constexpr (Choice<T>) {
       schema = formed_choice_schema<T>();
@@ -201,6 +205,22 @@ class SchemaBook {
         if (!partial_) add_demand(schema, demand);
       }
     }
+    return schema;
+  }
+
+  /// A list of whole ones, in a file with a base too; or one.
+  template <OneOrMoreMember T>
+  OrderedJson one_or_more_schema(std::string_view use) {
+    using Element = typename decltype(T::all)::value_type;
+    const std::string one = "one_" + std::string(use);
+    OrderedJson single = defined<Element>(one);
+    const bool was_partial = std::exchange(partial_, false);
+    OrderedJson schema{{"type", {"object", "array"}}, {"items", defined<Element>(one)}};
+    partial_ = was_partial;
+    schema["minItems"] = 1;
+    schema["maxItems"] = T::most;
+    schema["if"] = {{"type", "object"}};
+    schema["then"] = std::move(single);
     return schema;
   }
 

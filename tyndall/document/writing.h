@@ -61,6 +61,8 @@ OrderedJson written(const T& value) {
     OrderedJson out = OrderedJson::array();
     for (const auto& element : value) out.push_back(written(element));
     return out;
+  } else if constexpr (OneOrMoreMember<T>) {
+    return value.all.size() == 1 ? written(value.all.front()) : written(value.all);
   } else if constexpr (NamedChoice<T>) {
     OrderedJson out = OrderedJson::object();
     std::visit(

@@ -1,10 +1,12 @@
 #include "tyndall/image/panorama.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string_view>
 
 #include "tyndall/document/fault.h"
+#include "tyndall/document/file_kind.h"
 #include "tyndall/document/whole_file.h"
 #include "tyndall/image/exr.h"
 #include "tyndall/image/radiance_picture.h"
@@ -48,6 +50,10 @@ Panorama read_panorama(const std::filesystem::path& file) {
   const std::string where = place(file.string());
   const std::vector<std::uint8_t> bytes = read_whole_file(file);
   const bool is_exr = bytes.size() >= 4 && bytes[0] == 0x76 && bytes[1] == 0x2f && bytes[2] == 0x31 && bytes[3] == 0x01;
+  const std::string_view start(reinterpret_cast<const char*>(bytes.data()), std::min<std::size_t>(bytes.size(), 32));
+  if (const std::string_view kind = kind_of_start(start); !is_exr && !kind.empty() && !start.starts_with("#?")) {
+    throw Fault(where, std::string(kind), "a panorama: an .hdr or .exr picture");
+  }
   const auto parse = is_exr ? from_exr : from_radiance;
   rehearse(where, "a panorama in a sound .hdr or .exr file", [&] { parse(where, bytes); });
   return parse(where, bytes);

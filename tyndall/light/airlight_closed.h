@@ -115,13 +115,13 @@ inline std::optional<Spectrum> airlight_in_closed_form(std::span<const Scatterin
 
 /// Radiance that a lamp of 1 W/sr, shining alike in all directions, scatters into the ray's origin from the lit stretch
 /// of it, through a homogeneous medium: the closed form where it holds 11 digits, else panels. Relative error below
-/// 1e-10 for lobes with |g| <= 0.9999, any extinction >= 0, any lengths [m]; infinite where the lamp stands on the
-/// stretch.
+/// 1e-10 for lobes with |g| <= 0.9999, any extinction >= 0, any lengths [m], for tables as `knots` says; infinite where
+/// the lamp stands on the stretch.
 inline Spectrum airlight(std::span<const ScatteringLobe> lobes, const Spectrum& extinction, const LampAside& lamp,
-                         const Interval& lit) {
+                         const Interval& lit, TableKnotPanels knots = TableKnotPanels::split) {
   const AirlightStretch stretch = AirlightStretch::of(lamp, lit);
   if (const auto closed = airlight_in_closed_form(lobes, extinction, stretch)) return *closed;
-  return airlight_by_panels(lobes, extinction, stretch);
+  return airlight_by_panels(lobes, extinction, stretch, EvenFalloff{}, knots);
 }
 
 }  // namespace tyndall

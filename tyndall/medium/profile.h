@@ -45,7 +45,8 @@ struct LayerProfile {
   static constexpr auto fields() {
     return std::tuple{
         Field{"bottom", &LayerProfile::bottom, any_number, "m", "Height where it begins.", Scaling::length, true},
-        Field{"top", &LayerProfile::top, any_number, "m", "Height where it ends.", Scaling::length, true}};
+        Field{"top", &LayerProfile::top, any_number, "m", "Height where it ends, above bottom.", Scaling::length,
+              true}};
   }
 };
 
@@ -76,7 +77,8 @@ struct BoxProfile {
   static constexpr auto fields() {
     return std::tuple{
         Field{"min", &BoxProfile::min, any_number, "m", "Corner with the least coordinates.", Scaling::length, true},
-        Field{"max", &BoxProfile::max, any_number, "m", "Corner with the greatest coordinates.", Scaling::length, true},
+        Field{"max", &BoxProfile::max, any_number, "m", "Corner with the greatest coordinates, each above that of min.",
+              Scaling::length, true},
         Field{"feather", &BoxProfile::feather, not_negative, "m",
               "Depth inside the faces over which it fades in; at most half the shortest edge.", Scaling::length}};
   }
@@ -128,6 +130,10 @@ struct NoiseProfile {
 /// The closed list of profiles.
 using Profile = std::variant<ConstantProfile, ExponentialProfile, LayerProfile, TentProfile, BoxProfile, SphereProfile,
                              NoiseProfile>;
+
+/// What a density is multiplied by: one profile, or several of which the product is taken. One that is 0 somewhere
+/// makes the product 0 there.
+using Profiles = OneOrMore<Profile>;
 
 /// A layer needs a thickness.
 inline std::optional<Objection> objection_to(const LayerProfile& layer) {
@@ -210,6 +216,21 @@ inline double factor(const Profile& profile, const Vector& p, double time = 0.0)
 /// about the pattern that happens to be there.
 inline double mean_factor(const Profile& profile, const Vector& p) {
   return std::holds_alternative<NoiseProfile>(profile) ? 1.0 : factor(profile, p);
+}
+
+inline double mean_factor(const Profiles& profiles, const Vector& p) {
+  double product = 1.0;
+  for (const Profile& profile : profiles.all) product *= mean_factor(profile, p);
+  return product;
+}
+
+/// Height over which all exponentials among the profiles together thin by a factor e [m]; nothing where there is none.
+inline std::optional<double> scale_height_of(const Profiles& profiles) {
+  double rate = 0.0;
+  for (const Profile& profile : profiles.all) {
+    if (const auto* e = std::get_if<ExponentialProfile>(&profile)) rate += 1.0 / e->scale_height;
+  }
+  return rate > 0.0 ? std::optional(1.0 / rate) : std::nullopt;
 }
 
 }  // namespace tyndall

@@ -101,6 +101,11 @@ std::vector<Case> cases() {
           {"exponential noise in a soft box", {exponential, noise, soft}},
           {"exponential noise in a soft ball", {exponential, noise, soft_ball}},
           {"noise in noise in a tent", {noise, plain, tent}},
+          {"five noises in a soft box",  // degree 54: more points than a rule has
+           {noise, plain, NoiseProfile{1.1, 2, 1.0, 3, {}}, NoiseProfile{0.8, 2, 0.7, 8, {}},
+            NoiseProfile{2, 1, 1, 9, {}}, soft}},
+          {"eight noises, exponential",
+           {ExponentialProfile{0.4, 0.0}, noise, plain, noise, plain, noise, plain, soft_ball}},
           {"two boxes", {box, BoxProfile{{-2, -0.5, -2}, {0.5, 2, 2}, 0.3}}}};
 }
 

@@ -172,12 +172,18 @@ inline void add_formed_stretches(std::span<const LoweredSpecies> together, const
         end = std::min({end, fine.end, std::max(begin + step, std::nextafter(begin, infinity))});
       }
     }
-    const double middle = 0.5 * (begin + end), start = log_at(begin);
-    const int degree = end < infinity ? s.form.degree(along, middle) : 0;
-    Stretch piece(s, {begin, end}, std::exp(start), rate, start);
-    if (degree > 0) piece.set_form(along, std::min(16, degree / 2 + 1 + (rate != 0.0 ? 6 : 0)));
-    depth += piece.depth_to(end) * least;
-    if (piece.factor > 0.0 || rate < 0.0) {
+    const int degree = end < infinity ? s.form.degree(along, 0.5 * (begin + end)) : 0;
+    // Many forms in one place: 16 points do for degree 31, or 19 with an exponential, and in parts for any product.
+    const int points = degree > 0 ? degree / 2 + 1 + (rate != 0.0 ? 6 : 0) : 0, parts = std::max(1, (points + 15) / 16);
+    for (int part = 0; part < parts; ++part) {
+      const double from = part == 0 ? begin : begin + (end - begin) * part / parts;
+      const double to = part == parts - 1 ? end : begin + (end - begin) * (part + 1) / parts;
+      if (!(from < to)) continue;
+      const double start = log_at(from);
+      Stretch piece(s, {from, to}, std::exp(start), rate, start);
+      if (degree > 0) piece.set_form(along, std::min(16, points));
+      depth += piece.depth_to(to) * least;
+      if (!(piece.factor > 0.0 || rate < 0.0)) continue;
       for (const LoweredSpecies& one : together) {
         piece.species = &one;
         out.push_back(piece);

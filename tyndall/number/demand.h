@@ -18,12 +18,14 @@ struct Demand {
     needs,         // where the first is written, so is the second
     not_all_zero,  // of a list of numbers
     counts,        // the list has an element whose number, the second field, is above 0
-    one_word_of    // a text is one of the words
+    one_word_of,   // a text is one of the words
+    sized          // where the list is written, it has from `least` to `most` elements
   };
   Kind kind = Kind::some_of;
   std::array<std::string_view, 8> names{};  // of fields (the first for one_word_of); unused ones are empty
   const std::string_view* words = nullptr;
   std::size_t word_count = 0;
+  std::size_t least = 0, most = 0;
 };
 
 template <class... Name>
@@ -40,6 +42,10 @@ constexpr Demand counts(std::string_view list, std::string_view number) {
 template <std::size_t N>
 constexpr Demand one_word_of(std::string_view field, const std::array<std::string_view, N>& words) {
   return {Demand::Kind::one_word_of, {field}, words.data(), N};
+}
+
+constexpr Demand sized(std::string_view list, std::size_t least, std::size_t most) {
+  return {Demand::Kind::sized, {list}, nullptr, 0, least, most};
 }
 
 }  // namespace tyndall

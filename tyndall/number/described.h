@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "tyndall/number/field.h"
+#include "tyndall/number/one_or_more.h"
 
 namespace tyndall {
 
@@ -82,6 +83,10 @@ inline constexpr bool is_list = false;
 template <class T>
 inline constexpr bool is_list<std::vector<T>> = true;
 template <class T>
+inline constexpr bool is_one_or_more = false;
+template <class T>
+inline constexpr bool is_one_or_more<OneOrMore<T>> = true;
+template <class T>
 inline constexpr bool is_array = false;
 template <class T, std::size_t N>
 inline constexpr bool is_array<std::array<T, N>> = true;
@@ -95,6 +100,8 @@ template <class T>
 concept OptionalMember = kind::is_optional<T>;
 template <class T>
 concept ListMember = kind::is_list<T>;
+template <class T>
+concept OneOrMoreMember = kind::is_one_or_more<T>;
 template <class T>
 concept ArrayMember = kind::is_array<T>;
 template <class T>

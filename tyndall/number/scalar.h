@@ -79,6 +79,16 @@ inline T with_sign_of(const T& x, const T& s) {
   return select(s < T(0.0), -abs(x), abs(x));
 }
 
+/// ln x and e^x to 1e-5 at least, for what only starts a search: Lanes have quicker ones.
+template <class T>
+inline T rough_log(const T& x) {
+  return log(x);
+}
+template <class T>
+inline T rough_exp(const T& x) {
+  return exp(x);
+}
+
 /// Gives a sub-expression a name for generated code (Symbol); every other number passes through.
 template <class T>
 inline const T& named(const char*, const T& value) {

@@ -29,4 +29,10 @@ struct Deflection {
   T sine() const { return sqrt(one_minus * one_plus); }
 };
 
+/// Cumulative distribution, its complement and density [1/sr] at a deflection, of a lobe or added up over lobes.
+template <class T>
+struct Passage {
+  T below, above, density;
+};
+
 }  // namespace tyndall

@@ -18,20 +18,31 @@ struct DraineLobe {
   static DraineLobe of(const T& g, const T& alpha) { return {g, named("complement", T(1.0) - abs(g)), alpha}; }
   static constexpr auto members() { return std::tuple{&DraineLobe::g, &DraineLobe::complement, &DraineLobe::alpha}; }
 
-  T density(const Deflection<T>& d) const {
-    return base().density(d) * fma(alpha * d.mu, d.mu, T(1.0)) / normalisation();
-  }
+  T density(const Deflection<T>& d) const { return base().density(d) * fma(alpha * d.mu, d.mu, T(1.0)) * share(); }
 
   /// F = H(mu) (1 + alpha m(mu)) / N: H is the cumulative distribution of h, m the mean of mu^2 below (mean_square).
   T cdf(const Deflection<T>& d) const {
     const T r = distance(d);
     const T below = one_minus(T(1.0)) * d.one_plus / (r * (one_plus(T(1.0)) + r));
-    return below * fma(alpha, mean_square(T(1.0), d, r), T(1.0)) / normalisation();
+    return below * fma(alpha, mean_square(T(1.0), d, r), T(1.0)) * share();
   }
   T survival(const Deflection<T>& d) const {
     const T r = distance(d);
     const T above = one_plus(T(1.0)) * d.one_minus / (r * (one_minus(T(1.0)) + r));
-    return above * fma(alpha, mean_square(T(-1.0), {-d.mu, d.one_plus, d.one_minus}, r), T(1.0)) / normalisation();
+    return above * fma(alpha, mean_square(T(-1.0), {-d.mu, d.one_plus, d.one_minus}, r), T(1.0)) * share();
+  }
+  /// Both and the density, with two divisions for five.
+  Passage<T> passage(const Deflection<T>& d) const {
+    const T r = distance(d), minus = one_minus(T(1.0)), plus = one_plus(T(1.0)), a = fma(g, g, T(1.0));
+    const T before = minus + r, behind = plus + r, here = T(1.0) / (r * before * behind);
+    const T sum_below = fma(r, plus, a), sum_above = fma(r, minus, a), inverse = T(1.0) / (sum_below * sum_above);
+    const T m = mean_square(T(1.0), d, r, inverse * sum_above);
+    const T n = mean_square(T(-1.0), {-d.mu, d.one_plus, d.one_minus}, r, inverse * sum_below);
+    const T scale = share(), inverse_r = before * behind * here;
+    const T base = complement * (T(1.0) + abs(g)) * inverse_four_pi<T>() * scale * inverse_r;
+    return {minus * scale * d.one_plus * (here * before) * fma(alpha, m, T(1.0)),
+            plus * scale * d.one_minus * (here * behind) * fma(alpha, n, T(1.0)),
+            base * (inverse_r * inverse_r) * fma(alpha * d.mu, d.mu, T(1.0))};
   }
 
   /// Solves t (1 + alpha m(mu(t))) = N xi for t, where mu(t) is the exact inverse of H; xi > 1/2 is solved in the
@@ -95,6 +106,7 @@ struct DraineLobe {
   HenyeyGreensteinLobe<T> base() const { return {g, complement}; }
   T normalisation() const { return named("normalisation", fma(alpha, fma(T(2.0) * g, g, T(1.0)) / T(3.0), T(1.0))); }
   /// 1 -+ side g for side = 1 or, in the mirror, -1.
+  T share() const { return named("share", T(1.0) / normalisation()); }
   T one_minus(const T& side) const {
     return named("one_minus_g", select(side * sign() < T(0.0), T(1.0) + abs(g), complement));
   }
@@ -122,9 +134,12 @@ struct DraineLobe {
   /// the integral of mu^2 over the quantile is a polynomial in r, from which g^2 has been taken out by hand: the
   /// textbook's difference divided by g^3 has no digits left at small g. At g = 0 it is (1 - mu + mu^2)/3.
   T mean_square(const T& side, const Deflection<T>& d, const T& r) const {
+    const T a = named("a", fma(g, g, T(1.0))), q = named("q", r * one_plus(side));
+    return mean_square(side, d, r, named("inverse_sum", T(1.0) / (a + q)));
+  }
+  T mean_square(const T& side, const Deflection<T>& d, const T& r, const T& inverse_sum) const {
     const T plus = one_plus(side);
     const T a = named("a", fma(g, g, T(1.0))), q = named("q", r * plus);
-    const T inverse_sum = named("inverse_sum", T(1.0) / (a + q));
     const T s = named("s", fma(-d.mu, plus * plus, a) * inverse_sum);
     const T wide = named("wide", s * fma(T(1.0 / 3.0), q, a)), narrow = named("narrow", fma(T(-1.0 / 3.0), q, a));
     return named("mean_square", fma(d.mu, narrow - wide, wide) * inverse_sum);

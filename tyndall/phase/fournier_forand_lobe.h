@@ -33,23 +33,28 @@ struct FournierForandLobe {
     return std::tuple{&FournierForandLobe::nu, &FournierForandLobe::scale, &FournierForandLobe::tail};
   }
 
-  T density(const Deflection<T>& d) const {
-    const T v = T(0.5) * d.one_minus, u = T(0.5) * d.one_plus;
-    const Core c = core_at(v, u);
-    const T reach = named("reach", inverse_four_pi<T>() * above(c.v, u));
+  T density(const Deflection<T>& d) const { return passage(d).density; }
+  T cdf(const Deflection<T>& d) const { return passage(d).below; }
+  T survival(const Deflection<T>& d) const { return passage(d).above; }
+  /// F, 1 - F and p together: what costs is common to all three.
+  Passage<T> passage(const Deflection<T>& d) const {
+    const T u = T(0.5) * d.one_plus;
+    const Core c = core_at(T(0.5) * d.one_minus, u);
+    const T v = c.v;
+    const Powers p = powers(v);
+    // Without the core: F = u b less tail/8 mu (1 - mu^2), u = 1 - v, 1 - F = (1 - b) + v b and that; 4 pi p = (b - u
+    // k)/v + the tail, with b - u k = (b - k) + v k.
+    const T bulge = named("bulge", T(0.5) * tail * (u - v));
+    const T above = named("over_all", fma(p.b, v, fma(bulge * u, v, p.rest)));
+    const T below = u * (p.b - bulge * v);
+    const T lobe = named("lobe", fma(p.difference, c.inverse, p.k));
+    const T outside = inverse_four_pi<T>() * fma(T(0.25) * tail, fma(T(3.0) * d.mu, d.mu, T(-1.0)), lobe);
+    const T reach = named("reach", inverse_four_pi<T>() * above);
     // Innermost, where `inside` counts, 1 - F is a straight line.
-    return c.factor * select(c.inside < T(1.0), reach / c.v, fma(reach, c.slope, outside(c.v, d.mu)));
-  }
-  T cdf(const Deflection<T>& d) const {
-    const T u = T(0.5) * d.one_plus;
-    const Core c = core_at(T(0.5) * d.one_minus, u);
-    const T over = named("over_all", above(c.v, u));
-    return select(c.inside < T(1.0), T(1.0) - over * c.factor * c.inside, fma(over, T(1.0) - c.factor, below(c.v, u)));
-  }
-  T survival(const Deflection<T>& d) const {
-    const T u = T(0.5) * d.one_plus;
-    const Core c = core_at(T(0.5) * d.one_minus, u);
-    return above(c.v, u) * c.factor * c.inside;
+    const auto straight = c.inside < T(1.0);
+    const T over = named("over", above * c.factor);
+    return {select(straight, T(1.0) - over * c.inside, fma(above, T(1.0) - c.factor, below)), over * c.inside,
+            c.factor * select(straight, reach * c.inverse, fma(reach, c.slope, outside))};
   }
 
   /// From where the ends of F would put it: ahead 1 - F = d^m, m = -nu, in the flattened core proportional to v, and
@@ -83,15 +88,15 @@ struct FournierForandLobe {
  private:
   static constexpr double core = 1e-18, log_core = -41.44653167389282;
   /// `factor` flattens the peak; slope is d ln(factor)/dv. Inside v = 1e-29 all is straight: v stays there, and
-  /// `inside` is the share of it.
+  /// `inside` is the share of it. inverse is 1/v.
   struct Core {
-    T v, factor, slope, inside;
+    T v, inverse, factor, slope, inside;
   };
   Core core_at(const T& v, const T& u) const {
-    const T least = T(1e-29), kept = named("v", max(v, least));
-    const T q = named("q", T(1.0) + T(core) * u / kept);
-    return {kept, named("core_factor", exp(-(T(1.0) + nu) * log(q))),
-            named("core_slope", (T(1.0) + nu) * T(core) / kept / (kept * q)), min(T(1.0), v / least)};
+    const T least = T(1e-29), kept = named("v", max(v, least)), inverse = named("inverse_v", T(1.0) / kept);
+    const T near = named("near", T(core) * inverse), q = named("q", fma(near, u, T(1.0)));
+    return {kept, inverse, named("core_factor", exp(-(T(1.0) + nu) * log(q))),
+            named("core_slope", (T(1.0) + nu) * (near / q) * inverse), min(T(1.0), v * T(1e29))};
   }
 
   static T legendre(int l, const Deflection<T>& d) {
@@ -114,19 +119,21 @@ struct FournierForandLobe {
     const T d = named("d", scale * v), off = named("off", d - T(1.0));
     // ln d keeps its digits near 1 as 2 artanh(off / (2 + off)).
     const T z = named("z", off / (T(2.0) + off)), z2 = named("z2", z * z);
-    T series = T(1.0 / 19.0);
-    for (const double odd : {17.0, 15.0, 13.0, 11.0, 9.0, 7.0, 5.0, 3.0}) series = fma(series, z2, T(1.0 / odd));
+    T series = T(is_double<T> ? 1.0 / 19.0 : 1.0 / 9.0);
+    for (int odd = is_double<T> ? 17 : 7; odd > 1; odd -= 2) series = fma(series, z2, T(1.0 / odd));
     const auto near_one = abs(off) < T(0.25);
     const T logarithm = named("log_d", select(near_one, T(2.0) * fma(series * z2, z, z), log(d)));
 
     // b = sum B_j off^j and k = sum B_j (j + 1)/(j + 2) (1 + m) off^j, B_j = binom(m, j + 1).
     constexpr int terms = is_double<T> ? 14 : 8;
-    T b_series = T(0.0), k_series = T(0.0), binomial = m, rise = T(1.0);
-    for (int j = 0; j < terms; ++j) {
-      b_series = fma(binomial, rise, b_series);
-      k_series = fma(T((j + 1.0) / (j + 2.0)) * binomial, rise, k_series);
-      binomial = named("binomial", binomial * (m - T(j + 1.0)) * T(1.0 / (j + 2.0)));
-      rise = named("rise", rise * off);
+    std::array<T, terms> binomial;
+    binomial[0] = m;
+    for (int j = 1; j < terms; ++j)
+      binomial[j] = named("binomial", binomial[j - 1] * (m - T(static_cast<double>(j))) * T(1.0 / (j + 1.0)));
+    T b_series = binomial[terms - 1], k_series = T(terms / (terms + 1.0)) * binomial[terms - 1];
+    for (int j = terms - 2; j >= 0; --j) {
+      b_series = fma(b_series, off, binomial[j]);
+      k_series = fma(k_series, off, T((j + 1.0) / (j + 2.0)) * binomial[j]);
     }
     const auto close = abs(off) < T(is_double<T> ? 0.08 : 0.12);
     const T over = named("over", T(1.0) / select(close, T(1.0), off));
@@ -136,19 +143,6 @@ struct FournierForandLobe {
     const T rest = named("rest", select(close, T(1.0) - b, (d - power) * over));
     return {b, k, rest, named("difference", select(close, b - k, fma(b, d, -m * power) * over))};
   }
-
-  /// 4 pi p = (b - u k)/v + the tail, with b - u k = (b - k) + v k.
-  T outside(const T& v, const T& mu) const {
-    const Powers p = powers(v);
-    const T lobe = named("lobe", p.difference / v + p.k);
-    return inverse_four_pi<T>() * fma(T(0.25) * tail, fma(T(3.0) * mu, mu, T(-1.0)), lobe);
-  }
-  /// F = u b less tail/8 mu (1 - mu^2), u = 1 - v, and 1 - F = (1 - b) + v b and that.
-  T above(const T& v, const T& u) const {
-    const Powers p = powers(v);
-    return fma(p.b, v, p.rest) + T(0.5) * tail * (u - v) * u * v;
-  }
-  T below(const T& v, const T& u) const { return u * (powers(v).b - T(0.5) * tail * (u - v) * v); }
 };
 
 }  // namespace tyndall

@@ -14,9 +14,14 @@ struct MieHazy {
   static constexpr std::string_view name = "mie_hazy";
   static constexpr std::string_view text = "Light haze: half isotropic, half a broad forward lobe.";
   static constexpr int exponent = 8;
+  static constexpr FlatAndPowerStart start{
+      0.1,
+      0.38,
+      {0.997269, -0.0125451, -0.0247435, -0.0243911, -0.0075407, 0.00577272, 0.00385275},
+      {0.917812, 0.11216, -0.0446644, 0.0222215, -0.0132572, 0.00931597, -0.00359796}};
   static constexpr auto fields() { return std::tuple<>{}; }
   LobeSum<T> lower() const { return flat_and_power_lobes<T>(0.5, exponent); }
-  Deflection<T> sample(const T& xi) const { return flat_and_power_sample<T>(0.5, exponent, xi); }
+  Deflection<T> sample(const T& xi) const { return flat_and_power_sample<T>(0.5, exponent, start, xi); }
 };
 
 }  // namespace tyndall

@@ -15,9 +15,14 @@ struct MieMurky {
   static constexpr std::string_view name = "mie_murky";
   static constexpr std::string_view text = "Dense mist: half isotropic, half a narrow forward lobe.";
   static constexpr int exponent = 32;
+  static constexpr FlatAndPowerStart start{
+      0.3,
+      0.48,
+      {0.99971, -0.00143993, -0.0102733, -0.0318356, -0.0280674, 0.00827054, 0.0137309},
+      {0.979303, 0.0298094, -0.0143661, 0.00264411, 0.000714166, 0.0113696, -0.00956249}};
   static constexpr auto fields() { return std::tuple<>{}; }
   LobeSum<T> lower() const { return flat_and_power_lobes<T>(0.5, exponent); }
-  Deflection<T> sample(const T& xi) const { return flat_and_power_sample<T>(0.5, exponent, xi); }
+  Deflection<T> sample(const T& xi) const { return flat_and_power_sample<T>(0.5, exponent, start, xi); }
 };
 
 }  // namespace tyndall

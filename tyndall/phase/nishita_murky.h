@@ -17,9 +17,14 @@ struct NishitaMurky {
       "Murk as first published: a stronger forward lobe than the note's mie_murky.";
   static constexpr int exponent = 32;
   static constexpr double flat = 33.0 / 83.0;
+  static constexpr FlatAndPowerStart start{
+      0.3,
+      0.42,
+      {0.973779, -0.0727458, -0.0490024, 0.0212961, 0.0187654, -0.00936296, -0.00441778},
+      {0.981032, 0.0263678, -0.0113132, 0.00306047, -0.000471368, 0.00652014, -0.00524351}};
   static constexpr auto fields() { return std::tuple<>{}; }
   LobeSum<T> lower() const { return flat_and_power_lobes<T>(flat, exponent); }
-  Deflection<T> sample(const T& xi) const { return flat_and_power_sample<T>(flat, exponent, xi); }
+  Deflection<T> sample(const T& xi) const { return flat_and_power_sample<T>(flat, exponent, start, xi); }
 };
 
 }  // namespace tyndall

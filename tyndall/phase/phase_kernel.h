@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "tyndall/phase/lobe_record.h"
+#include "tyndall/phase/quantile_start.h"
 
 namespace tyndall {
 
@@ -15,9 +16,10 @@ struct PhaseKernelCall {
   const LobeRecord* lobes;  // at least one
   int lobe_count;
   std::size_t count;
-  const float *mu, *one_minus, *one_plus;                    // density, cdf: given
-  const float* xi;                                           // sample: given
-  float* value;                                              // density, cdf: found
+  const float *mu, *one_minus, *one_plus;  // density, cdf: given
+  const float* xi;                         // sample: given
+  const QuantileStart* start;              // sample: where searches begin; null: no search, or a long one
+  float* value;                            // density, cdf: found
   float *sampled_mu, *sampled_one_minus, *sampled_one_plus;  // sample: found
 };
 

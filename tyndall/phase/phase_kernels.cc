@@ -9,8 +9,23 @@ std::vector<LobeRecord> lobe_records(const LobeSum<float>& lobes) {
   return out;
 }
 
+std::optional<QuantileStart> quantile_start(const LobeSum<float>& lobes) {
+  if (lobes.size() == 1) {
+    const Lobe<float>& only = lobes.front().lobe;
+    const bool searched =
+        std::holds_alternative<DraineLobe<float>>(only) || std::holds_alternative<FournierForandLobe<float>>(only);
+    if (!searched) return std::nullopt;
+  }
+  for (const auto& part : lobes) {
+    // A law with kinks: the curve between two knots of ours knows nothing of them.
+    if (std::holds_alternative<TableLobe<float>>(part.lobe)) return std::nullopt;
+  }
+  return QuantileStart::of(lobes_as<double>(lobes));
+}
+
 PhaseArrays::PhaseArrays(const LobeSum<float>& lobes, InstructionSet set)
     : kept_(lobes),
+      start_(quantile_start(kept_)),
       lobes_(lobe_records(kept_)),
       run_(choose_kernel<PhaseKernelFunction>(set, phase_kernel_baseline, phase_kernel_avx2, phase_kernel_avx512)) {
   assert(!lobes.empty());
@@ -45,6 +60,7 @@ void PhaseArrays::sample(std::span<const float> xi, const DeflectionResults& out
   assert(out.mu.size() == xi.size() && out.one_minus.size() == xi.size() && out.one_plus.size() == xi.size());
   PhaseKernelCall samples = call(PhaseTask::sample, xi.size());
   samples.xi = xi.data();
+  samples.start = start_ ? &*start_ : nullptr;
   samples.sampled_mu = out.mu.data();
   samples.sampled_one_minus = out.one_minus.data();
   samples.sampled_one_plus = out.one_plus.data();

@@ -1,5 +1,6 @@
 #pragma once
 // Laws over arrays, as many at a time as the processor has lanes: one kernel per instruction set, chosen at run time.
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,14 +22,16 @@ struct DeflectionResults {
 /// differ between instruction sets in the last digits.
 class PhaseArrays {
  public:
-  /// `lobes` is not empty. `set` must be one that this machine can run (best_instruction_set() and below).
+  /// `lobes` is not empty. Takes some milliseconds where sampling needs a search (Draine's, Fournier and Forand's lobe,
+  /// sums of lobes), for which it is prepared. `set` must be one that this machine can run (best_instruction_set() and
+  /// below).
   explicit PhaseArrays(const LobeSum<float>& lobes, InstructionSet set = best_instruction_set());
 
   /// Phase function at each deflection [1/sr]; all arrays of equal length.
   void density(const DeflectionArrays& at, std::span<float> out) const;
   /// Probability that mu is at most that of each deflection.
   void cdf(const DeflectionArrays& at, std::span<float> out) const;
-  /// The deflection of each xi in [0, 1].
+  /// The deflection of each xi; xi is 0 or from 1e-12 to 1.
   void sample(std::span<const float> xi, const DeflectionResults& out) const;
 
  private:
@@ -36,9 +39,13 @@ class PhaseArrays {
   void value(PhaseTask task, const DeflectionArrays& at, std::span<float> out) const;
 
   LobeSum<float> kept_;  // owns the tables that the records refer to
+  std::optional<QuantileStart> start_;
   std::vector<LobeRecord> lobes_;
   PhaseKernelFunction run_;
 };
+
+/// What speeds up the sampling of a sum of lobes; none where there is a closed form or nothing would be gained.
+std::optional<QuantileStart> quantile_start(const LobeSum<float>& lobes);
 
 /// The sum as plain numbers. Tables stay those of `lobes`, which must outlive the records.
 std::vector<LobeRecord> lobe_records(const LobeSum<float>& lobes);

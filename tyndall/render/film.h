@@ -37,6 +37,9 @@ class SampleFilm {
     return pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
   }
 
+  std::vector<Pixel>& pixels() { return pixels_; }  // row by row
+  const std::vector<Pixel>& pixels() const { return pixels_; }
+
   /// Adds the next sample of a pixel.
   static void add(Pixel& pixel, const PathSample& sample) {
     const Spectrum beauty = sample.beauty();

@@ -1,5 +1,9 @@
 #pragma once
 // Work shared among threads in numbered blocks; what a block computes must not depend on which thread takes it.
+#if defined(__linux__)
+#include <sched.h>
+#endif
+
 #include <algorithm>
 #include <atomic>
 #include <functional>
@@ -8,15 +12,21 @@
 
 namespace tyndall {
 
-/// Threads to use: `wanted`, or as many as the machine has when it is 0.
+/// Threads to use: `wanted`, or as many as there are processors that this process may run on when it is 0 (taskset,
+/// mpirun's binding).
 inline int thread_count(int wanted) {
-  return wanted > 0 ? wanted : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  if (wanted > 0) return wanted;
+#if defined(__linux__)
+  cpu_set_t mine;
+  if (sched_getaffinity(0, sizeof mine, &mine) == 0) return std::max(1, CPU_COUNT(&mine));
+#endif
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-/// Calls work(block, thread) once for every block in [0, blocks), thread in [0, threads). Returns when all are done.
-/// work must not throw.
-inline void for_each_block(std::size_t blocks, int threads, const std::function<void(std::size_t, int)>& work) {
-  std::atomic<std::size_t> next{0};
+/// Calls work(block, thread) for the blocks from `next` on, below `blocks`, thread in [0, threads); others may take
+/// blocks from `next` as well. Returns when those taken here are done. work must not throw.
+inline void take_blocks(std::atomic<std::size_t>& next, std::size_t blocks, int threads,
+                        const std::function<void(std::size_t, int)>& work) {
   const auto run = [&](int thread) {
     for (std::size_t block; (block = next.fetch_add(1)) < blocks;) work(block, thread);
   };
@@ -24,6 +34,12 @@ inline void for_each_block(std::size_t blocks, int threads, const std::function<
   for (int i = 1; i < threads; ++i) others.emplace_back(run, i);
   run(0);
   for (std::thread& t : others) t.join();
+}
+
+/// Calls work(block, thread) once for every block in [0, blocks).
+inline void for_each_block(std::size_t blocks, int threads, const std::function<void(std::size_t, int)>& work) {
+  std::atomic<std::size_t> next{0};
+  take_blocks(next, blocks, threads, work);
 }
 
 }  // namespace tyndall

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "tests/shared_folder.h"
@@ -297,6 +298,24 @@ TEST(Render, LayersAddUpToTheBeautyAndAreFiniteAndNotNegative) {
   EXPECT_GT(scattered, 0.05 * all);
 }
 
+TEST(Render, TellsOfItsEndOnceAndOfAllSamplesTaken) {
+  const Scene scene = tests::busy_scene();
+  const Geometry geometry(scene);
+  RenderSettings settings;
+  settings.spp = 5;
+  for (const char* integrator : {"path", "single"}) {
+    settings.integrator = integrator;
+    int ends = 0;
+    const Image image =
+        render(scene, geometry, settings, [&](const RenderProgress& p) { ends += p.fraction >= 1.0 ? 1 : 0; });
+    EXPECT_EQ(ends, 1) << integrator;
+    std::map<std::string, std::string> notes(image.notes.begin(), image.notes.end());
+    EXPECT_EQ(notes["tyndall.spp"], "5");
+    EXPECT_EQ(notes["tyndall.spp_taken"], "5");
+    EXPECT_EQ(notes.count("tyndall.stopped"), 0u);
+  }
+}
+
 TEST(Render, StoppingLeavesWhatIsThere) {
   const Scene scene = tests::busy_scene();
   const Geometry geometry(scene);
@@ -309,11 +328,16 @@ TEST(Render, StoppingLeavesWhatIsThere) {
       scene, geometry, settings,
       [&](const RenderProgress& p) {
         EXPECT_GE(p.fraction, 0.0);
+        EXPECT_LT(p.fraction, 1.0) << "it was not finished";
         if (++reports == 2) stop = true;
       },
       &stop);
   EXPECT_EQ(image.notes.back().first, "tyndall.stopped");
-  EXPECT_NE(image.notes.back().second.find(" samples"), std::string::npos);
+  std::map<std::string, std::string> notes(image.notes.begin(), image.notes.end());
+  EXPECT_EQ(notes["tyndall.spp"], std::to_string(settings.spp));
+  const auto taken = notes["tyndall.spp_taken"];
+  EXPECT_GE(std::stoi(taken), 1) << taken;
+  EXPECT_LT(std::stoi(taken.substr(taken.find('-') + 1)), settings.spp) << taken;
   double sum = 0.0;
   for (const float x : find_plane(image, "G")->values) sum += x;
   EXPECT_GT(sum, 0.0);

@@ -1,154 +1,188 @@
 #include "tyndall/render/render.h"
 
+#include <algorithm>
 #include <chrono>
+#include <limits>
 #include <memory>
-#include <mutex>
+#include <thread>
 
-#include "tyndall/render/camera.h"
 #include "tyndall/render/film.h"
 #include "tyndall/render/parallel.h"
-#include "tyndall/render/path.h"
-#include "tyndall/render/single.h"
+#include "tyndall/render/sampler.h"
+#include "tyndall/render/tile.h"
 
 namespace tyndall {
 namespace {
 
-constexpr int tile_size = 16;
-
-/// Paths to learn from: a sixteenth of all, within limits.
-constexpr std::uint64_t least_lessons = 1u << 11, most_lessons = 1u << 16;
-
-struct Tile {
-  int x0, y0, x1, y1;
-};
-
-std::vector<Tile> tiles_of(const SampleFilm& film, std::uint32_t order) {
-  std::vector<Tile> tiles;
-  for (int y = 0; y < film.height(); y += tile_size) {
-    for (int x = 0; x < film.width(); x += tile_size) {
-      tiles.push_back({x, y, std::min(x + tile_size, film.width()), std::min(y + tile_size, film.height())});
-    }
-  }
-  if (order != 0) {
-    RandomStream random(order, 0, 0);
-    for (std::size_t i = tiles.size(); i > 1; --i) {
-      std::swap(tiles[i - 1], tiles[static_cast<std::size_t>(random.next() * static_cast<double>(i))]);
-    }
-  }
-  return tiles;
+/// "64", or "12-16" where not all pixels have as many.
+std::string range_text(std::uint64_t least, std::uint64_t most) {
+  std::string text = std::to_string(least);
+  if (most != least) text.append("-").append(std::to_string(most));
+  return text;
 }
 
-/// Samples per pass: the first gives something to look at soon; later ones grow, so that passes cost little.
-int pass_size(int done, int spp) { return std::min(spp - done, std::max(1, done / 2)); }
+/// How many samples each pixel has after the pass that follows `done`. The first gives something to look at soon;
+/// later ones grow, so that passes cost little. Always the same numbers (1, 2, 3, 4, 6, 9, ..): a picture that ends at
+/// a given noise then ends with the same samples however often it was interrupted.
+int next_level(int done) {
+  int level = 0;
+  while (level <= done) level += std::max(1, level / 2);
+  return level;
+}
 
 class Rendering {
  public:
-  Rendering(const RenderSettings& settings, const std::function<void(const RenderProgress&)>& report,
-            const std::atomic<bool>* stop)
-      : settings_(settings), report_(report), stop_(stop) {}
+  Rendering(const RenderSettings& settings, SampleFilm& film, const RenderHooks& hooks, Sampler& sampler)
+      : settings_(settings),
+        film_(film),
+        hooks_(hooks),
+        sampler_(sampler),
+        tiles_(tiles_of(film.width(), film.height(), settings.tile_order)),
+        spp_(most_samples(settings)) {}
 
-  bool stopped() const { return stop_ != nullptr && stop_->load(); }
-
-  /// Calls work(tile, thread) for all tiles of one pass of `samples`, reporting from the calling thread (thread 0).
-  template <class Work>
-  void pass(const SampleFilm& film, const std::vector<Tile>& tiles, int samples, Work work) {
-    std::atomic<std::size_t> finished{0};
-    for_each_block(tiles.size(), thread_count(settings_.threads), [&](std::size_t i, int thread) {
-      if (stopped()) return;
-      work(tiles[i], thread);
-      ++finished;
-      if (thread == 0)
-        tell(film,
-             (done_ + samples * static_cast<double>(finished) / static_cast<double>(tiles.size())) / settings_.spp,
-             false);
-    });
-    done_ += samples;
-    tell(film, static_cast<double>(done_) / settings_.spp, true);
+  /// Passes until an end; true where it was not asked to stop.
+  bool passes() {
+    int done = least_samples();
+    tell(done, true);
+    while (!stopped() && done < spp_ && !quiet_enough(done)) {
+      const double begun = elapsed();
+      const int level = std::min({spp_, next_level(done), level_in_time(done)});
+      while (least_samples() < level && !stopped()) {
+        pass(level);
+        if (wanted_) {
+          hooks_.save(film_);
+          wanted_ = false;
+        }
+      }
+      if (stopped()) break;
+      seconds_per_sample_ = (elapsed() - begun) / (level - done);
+      done = level;
+      tell(done, true);
+    }
+    const bool ended = !asked_to_stop();
+    if (hooks_.report && ended) hooks_.report({1.0, elapsed(), noise_, done});
+    return ended;
   }
 
  private:
   using Clock = std::chrono::steady_clock;
-  void tell(const SampleFilm& film, double fraction, bool pass_is_over) {
-    const auto now = Clock::now();
-    if (!report_ || (now - told_ < std::chrono::milliseconds(100) && fraction < 1.0)) return;
-    told_ = now;
+
+  double elapsed() const { return std::chrono::duration<double>(Clock::now() - begun_).count(); }
+  int least_samples() const { return static_cast<int>(film_.samples_taken().first); }
+  bool asked_to_stop() const { return hooks_.stop != nullptr && hooks_.stop->load(); }
+  bool stopped() const { return late_ || asked_to_stop(); }
+  bool quiet_enough(int done) const {
+    // The noise of few samples is not known well; by chance it is 0.
+    constexpr int enough_to_judge = 8;
+    return settings_.until_noise > 0.0 && done >= enough_to_judge && noise_ <= settings_.until_noise;
+  }
+  /// How far to go in the time left, so that pixels end with the same number of samples if they can.
+  int level_in_time(int done) const {
+    if (!(settings_.seconds > 0.0) || !(seconds_per_sample_ > 0.0)) return std::numeric_limits<int>::max();
+    const double samples = (settings_.seconds - elapsed()) / seconds_per_sample_;
+    return done + std::max(1, static_cast<int>(std::min(samples, 1e9)));
+  }
+
+  /// Brings every pixel to `level` samples, or as many until somebody wants something else.
+  void pass(int level) {
+    std::atomic<std::size_t> next{0}, finished{0};
+    std::thread others;
+    if (hooks_.helpers != nullptr) {
+      others = std::thread([&] {
+        const auto empty = [&] { return stopped() || wanted_ || next >= tiles_.size(); };
+        const auto take = [&]() -> std::optional<std::size_t> {
+          const std::size_t i = empty() ? tiles_.size() : next.fetch_add(1);
+          if (i >= tiles_.size()) return std::nullopt;
+          ++finished;  // as good as
+          return i;
+        };
+        hooks_.helpers->work({tiles_, level, take, empty}, film_);
+      });
+    }
+    take_blocks(next, tiles_.size(), thread_count(settings_.threads), [&](std::size_t i, int thread) {
+      for_each_pixel(tiles_[i], [&](int x, int y) {
+        Pixel& pixel = film_.at(x, y);
+        if (static_cast<int>(pixel.samples) >= level) return;
+        if (thread == 0) watch();
+        while (static_cast<int>(pixel.samples) < level && !stopped() && !wanted_) sampler_.add(x, y, pixel, thread);
+      });
+      ++finished;
+      if (thread == 0 && !wanted_)
+        tell(done_ + (level - done_) * static_cast<double>(finished) / static_cast<double>(tiles_.size()), false);
+    });
+    if (others.joinable()) others.join();
+  }
+
+  /// What the calling thread sees to between pixels.
+  void watch() {
+    if (settings_.seconds > 0.0 && elapsed() > settings_.seconds) late_ = true;
+    if (hooks_.wants_film && hooks_.wants_film()) wanted_ = true;
+  }
+
+  /// The share of what is asked for that is done, by whichever end comes first.
+  double fraction(double samples) const {
+    double share = samples / spp_;
+    if (settings_.seconds > 0.0) share = std::max(share, elapsed() / settings_.seconds);
+    // Noise falls with the square root of the samples.
+    if (settings_.until_noise > 0.0 && noise_ > 0.0 && done_ > 0) {
+      const double needed = done_ * noise_ * noise_ / (settings_.until_noise * settings_.until_noise);
+      share = std::max(share, samples / needed);
+    }
+    return std::min(share, 0.999);  // 1 is said once, at the end
+  }
+
+  void tell(double samples, bool pass_is_over) {
     // Only between passes does no thread write to the film.
-    if (pass_is_over) noise_ = film.noise();
-    report_({fraction, std::chrono::duration<double>(now - begun_).count(), noise_, done_});
+    if (pass_is_over) {
+      noise_ = film_.noise();
+      done_ = static_cast<int>(samples);
+    }
+    const auto now = Clock::now();
+    if (!hooks_.report || now - told_ < std::chrono::milliseconds(100)) return;
+    told_ = now;
+    hooks_.report({fraction(samples), elapsed(), noise_, done_});
   }
 
   const RenderSettings& settings_;
-  const std::function<void(const RenderProgress&)>& report_;
-  const std::atomic<bool>* stop_;
+  SampleFilm& film_;
+  const RenderHooks& hooks_;
+  Sampler& sampler_;
+  std::vector<Tile> tiles_;
   Clock::time_point begun_ = Clock::now(), told_{};
-  int done_ = 0;
-  double noise_ = 0.0;
+  std::atomic<bool> late_{false}, wanted_{false};
+  int spp_, done_ = 0;
+  double noise_ = 0.0, seconds_per_sample_ = 0.0;
 };
 
 }  // namespace
 
+bool render(const Scene& scene, const Geometry& geometry, const RenderSettings& settings, SampleFilm& film,
+            const RenderHooks& hooks) {
+  const std::unique_ptr<Sampler> sampler = Sampler::make(scene, geometry, settings, thread_count(settings.threads));
+  return Rendering(settings, film, hooks, *sampler).passes();
+}
+
+Image developed(const SampleFilm& film, const RenderSettings& settings, bool ended) {
+  Image image = film.develop();
+  const auto [least, most] = film.samples_taken();
+  // single does all of a pixel at once, and counts it as one.
+  const std::uint64_t each = settings.integrator == "single" ? static_cast<std::uint64_t>(settings.spp) : 1;
+  image.notes = {{"tyndall.integrator", settings.integrator},
+                 {"tyndall.spp", std::to_string(settings.spp)},
+                 {"tyndall.spp_taken", range_text(least * each, most * each)},
+                 {"tyndall.seed", std::to_string(settings.seed)},
+                 {"tyndall.max_depth", settings.max_depth == 0 ? "none" : std::to_string(settings.max_depth)}};
+  if (const std::string text = quadrature_text(settings); !text.empty())
+    image.notes.emplace_back("tyndall.quadrature", text);
+  if (!ended) image.notes.emplace_back("tyndall.stopped", "before all samples were taken");
+  return image;
+}
+
 Image render(const Scene& scene, const Geometry& geometry, const RenderSettings& settings,
              const std::function<void(const RenderProgress&)>& report, const std::atomic<bool>* stop) {
   SampleFilm film(scene.film.width, scene.film.height);
-  const CameraRays camera(scene.camera, scene.film);
-  const std::vector<Tile> tiles = tiles_of(film, settings.tile_order);
-  Rendering rendering(settings, report, stop);
-  std::string quadrature;
-  if (settings.integrator == "single") {
-    // A picture shows six digits at most; probes ask for more (probe.cc).
-    const SingleContext context(scene, geometry, {.tolerance = 1e-6, .sky_directions = 128});
-    quadrature = single_description(context);
-    rendering.pass(film, tiles, settings.spp, [&](const Tile& tile, int) {
-      for (int y = tile.y0; y < tile.y1; ++y) {
-        for (int x = tile.x0; x < tile.x1 && !rendering.stopped(); ++x)
-          SampleFilm::set(film.at(x, y), single_pixel(context, x, y, settings.spp));
-      }
-    });
-  } else {
-    PathContext context(scene, geometry, settings.max_depth);
-    const auto all = static_cast<std::uint64_t>(settings.spp) * static_cast<std::uint64_t>(film.width()) *
-                     static_cast<std::uint64_t>(film.height());
-    context.learn(camera, scene.film, std::max(least_lessons, std::min(all / 16, most_lessons)), settings.seed,
-                  settings.threads);
-    std::vector<std::unique_ptr<PathTracer>> tracers;
-    for (int i = 0; i < thread_count(settings.threads); ++i) tracers.push_back(std::make_unique<PathTracer>(context));
-    for (int done = 0; done < settings.spp && !rendering.stopped();) {
-      const int samples = pass_size(done, settings.spp);
-      rendering.pass(film, tiles, samples, [&](const Tile& tile, int thread) {
-        for (int y = tile.y0; y < tile.y1; ++y) {
-          for (int x = tile.x0; x < tile.x1; ++x) {
-            Pixel& pixel = film.at(x, y);
-            const auto number = static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(film.width()) +
-                                static_cast<std::uint64_t>(x);
-            if (done == 0) {
-              const auto hit = geometry.intersect(camera.through(x + 0.5, y + 0.5));
-              pixel.depth = hit ? hit->t : infinity;
-            }
-            for (int i = 0; i < samples && !rendering.stopped(); ++i) {  // a late pass has many
-              RandomStream random(settings.seed, number, static_cast<std::uint32_t>(done + i),
-                                  RandomStream::Samples::even);
-              const double dx = random.next(), dy = random.next();
-              SampleFilm::add(pixel, tracers[static_cast<std::size_t>(thread)]->trace(camera.through(x + dx, y + dy),
-                                                                                      infinity, random));
-            }
-          }
-        }
-      });
-      done += samples;
-    }
-  }
-  Image image = film.develop();
-  image.notes = {{"tyndall.integrator", settings.integrator},
-                 {"tyndall.spp", std::to_string(settings.spp)},
-                 {"tyndall.seed", std::to_string(settings.seed)},
-                 {"tyndall.max_depth", settings.max_depth == 0 ? "none" : std::to_string(settings.max_depth)}};
-  if (!quadrature.empty()) image.notes.emplace_back("tyndall.quadrature", quadrature);
-  if (rendering.stopped()) {
-    const auto [least, most] = film.samples_taken();
-    image.notes.emplace_back("tyndall.stopped", "before all samples were taken: pixels have " + std::to_string(least) +
-                                                    " to " + std::to_string(most) + " samples");
-  }
-  return image;
+  const bool ended = render(scene, geometry, settings, film, {report, {}, {}, stop, nullptr});
+  return developed(film, settings, ended);
 }
 
 }  // namespace tyndall

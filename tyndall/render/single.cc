@@ -121,8 +121,7 @@ PixelLayers single_pixel(const SingleContext& context, int x, int y, int spp) {
   return layers;
 }
 
-std::string single_description(const SingleContext& context) {
-  const SingleSettings& s = context.prepared().settings;
+std::string single_description(const SingleSettings& s) {
   char text[512];
   std::snprintf(text, sizeof text,
                 "point, spot and parallel sun lights: exact shadows, closed forms or panels to %.0e; suns with a disc: "

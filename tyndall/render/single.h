@@ -59,6 +59,6 @@ PixelLayers single_pixel(const SingleContext& context, int x, int y, int spp);
 Spectrum single_fluence(const SingleContext& context, const Vector& point);
 
 /// The text for image headers: what the fixed quadratures were.
-std::string single_description(const SingleContext& context);
+std::string single_description(const SingleSettings& settings);
 
 }  // namespace tyndall

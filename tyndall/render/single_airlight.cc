@@ -214,6 +214,7 @@ Spectrum lamp_airlight(const RayMedium& along, const SingleLamp& lamp, std::span
   std::vector<double> kinks;
   bool have_kinks = false;
   Homogeneous fill;
+  const TableKnotPanels knots = tolerance < 1e-4 ? TableKnotPanels::split : TableKnotPanels::crossed;
   std::optional<LampIntegral> varying;
   for (const BeamPart& part : parts) {
     // Piece by piece between borders, as long as the medium is homogeneous around each.
@@ -229,9 +230,9 @@ Spectrum lamp_airlight(const RayMedium& along, const SingleLamp& lamp, std::span
         const LampAside place{view.place.along - begin, view.place.aside};
         const Interval stretch{0.0, end - begin};
         const Spectrum light =
-            part.full ? airlight(fill.lobes, fill.extinction, place, stretch)
+            part.full ? airlight(fill.lobes, fill.extinction, place, stretch, knots)
                       : airlight_by_panels(fill.lobes, fill.extinction, AirlightStretch::of(place, stretch),
-                                           LampFalloff(lamp, view, false));
+                                           LampFalloff(lamp, view, false), knots);
         const Spectrum through = along.transmittance_to(begin);
         for (std::size_t c = 0; c < channel_count; ++c) {
           if (through[c] > 0.0) piecewise[c] += light[c] * through[c];

@@ -198,7 +198,7 @@ TEST(Single, SaysWhatItsQuadraturesWere) {
   const Geometry geometry(scene);
   SingleSettings settings;
   settings.sky_directions = 77;
-  const std::string text = single_description(SingleContext(scene, geometry, settings));
+  const std::string text = single_description(settings);
   EXPECT_NE(text.find("77 directions"), std::string::npos) << text;
 }
 

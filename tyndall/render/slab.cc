@@ -127,29 +127,34 @@ std::vector<MeanAndError> replicated(const SlabRequest& request, std::size_t tal
 
 }  // namespace
 
-std::string slab_objection(const SlabRequest& request) {
+std::optional<Objection> slab_objection(const SlabRequest& request) {
   const LoweredMedium medium = lower(request.medium);
   for (const LoweredSpecies& s : medium.species) {
-    if (!s.is_layered()) return "a slab's medium may vary with height only, not in boxes, spheres or noise";
+    if (!s.is_layered()) {
+      return Objection{"medium", "a species in a box, a sphere or noise",
+                       "species that vary with height only: a slab is flat"};
+    }
     if ((s.heights.bounded() || !s.form.empty()) && std::isinf(request.thickness)) {
-      return "a medium that ends at some height has no infinite slab: give a thickness";
+      return Objection{"thickness", "inf for a medium that ends at some height", "a thickness in metres"};
     }
     if (s.decay != 0.0 && std::isinf(request.thickness)) {
-      return "a medium that thickens without end downward has no infinite slab: give a thickness";
+      return Objection{"thickness", "inf for a medium that thickens without end downward", "a thickness in metres"};
     }
   }
   if (std::isinf(request.thickness)) {
-    if (request.ground > 0.0) return "an infinite slab has no ground";
+    if (request.ground > 0.0) {
+      return Objection{"ground", "the ground of a slab that never ends", "no ground, or a thickness in metres"};
+    }
     Spectrum scattering, absorption;
     for (const LoweredSpecies& s : medium.species) scattering += s.scattering, absorption += s.absorption;
     for (std::size_t c = 0; c < channel_count; ++c) {
       if (scattering[c] > 0.0 && absorption[c] == 0.0) {
-        return "an infinite slab that absorbs nothing reflects everything, after paths without end: give a thickness, "
-               "or some absorption";
+        return Objection{"thickness", "inf for a medium that absorbs nothing, whose light would go on without end",
+                         "a thickness in metres, or a medium with some absorption"};
       }
     }
   }
-  return {};
+  return std::nullopt;
 }
 
 SlabResult solve_slab(const SlabRequest& request) {

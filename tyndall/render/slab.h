@@ -1,6 +1,7 @@
 #pragma once
 // Light through a plane-parallel slab: reflectance, transmittance and exit radiance, all orders of scattering.
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,8 +41,8 @@ struct SlabResult {
   std::vector<Estimate> reflection, transmission;
 };
 
-/// What is wrong with a request, in words; empty when it can be computed.
-std::string slab_objection(const SlabRequest& request);
+/// What is wrong with a request, with the name of its member; none when it can be computed.
+std::optional<Objection> slab_objection(const SlabRequest& request);
 
 /// Monte Carlo over request.paths paths; where density does not vary with height, over as many for each channel that
 /// differs from the others, so that a channel's numbers are bit by bit those of the grey slab of its coefficients. The

@@ -213,12 +213,14 @@ TEST(Slab, AnEmptySlabPassesEverything) {
 
 TEST(Slab, ObjectsToWhatHasNoAnswer) {
   SlabRequest request = slab_of(Isotropic<double>{}, 1.0, 1.0);
-  EXPECT_EQ(slab_objection(request), "");
+  EXPECT_FALSE(slab_objection(request));
   request.thickness = infinity;
-  EXPECT_NE(slab_objection(request), "");
+  ASSERT_TRUE(slab_objection(request));
+  EXPECT_EQ(slab_objection(request)->field, "thickness");
   request = slab_of(Isotropic<double>{}, 0.5, 1.0);
   request.medium.species[0].profiles.push_back(SphereProfile{});
-  EXPECT_NE(slab_objection(request), "");
+  ASSERT_TRUE(slab_objection(request));
+  EXPECT_EQ(slab_objection(request)->field, "medium");
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <set>
 
+#include "tyndall/document/file_kind.h"
 #include "tyndall/document/spelling.h"
 #include "tyndall/document/whole_file.h"
 #include "tyndall/image/rehearsal.h"
@@ -337,6 +338,7 @@ std::optional<GltfCamera> load(Scene& scene, const std::filesystem::path& file, 
 
 std::optional<GltfCamera> add_gltf(Scene& scene, const std::filesystem::path& file, double meters_per_unit,
                                    bool allow_path) {
+  refuse_other_kinds(file, FileKind::model);
   const std::vector<std::uint8_t> bytes = read_whole_file(file);
   rehearse(place(file.string()), "a sound glTF 2.0 file", [&] {
     Scene scratch;

@@ -1,15 +1,18 @@
 #include "tyndall/scene/gltf_model.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <exception>
 #include <new>
 
+#include "tyndall/document/file_kind.h"
 #include "tyndall/document/json_locator.h"
 #include "tyndall/document/reference.h"
 #include "tyndall/document/spelling.h"
 #include "tyndall/document/whole_file.h"
+#include "tyndall/scene/gltf_rules.h"
 
 namespace tyndall {
 namespace {
@@ -37,8 +40,37 @@ std::string json_of(const std::string& where, Bytes bytes) {
   return {bytes.begin() + 20, bytes.begin() + 20 + length};
 }
 
+std::string percent_decoded(const std::string& uri) {
+  std::string text;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    unsigned code = 0;
+    const char* const digits = uri.data() + i + 1;
+    if (uri[i] == '%' && i + 2 < uri.size() && std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2) {
+      text += static_cast<char>(code);
+      i += 2;
+    } else {
+      text += uri[i];
+    }
+  }
+  return text;
+}
+
+/// Where a model names the file `name`; empty where it cannot be found. tinygltf decodes names and forgets places.
+std::string pointer_of_uri(const Json& root, const std::string& name) {
+  for (const char* const list : {"buffers", "images"}) {
+    for (std::size_t i = 0; root.contains(list) && i < root[list].size(); ++i) {
+      const auto uri = root[list][i].find("uri");
+      if (uri == root[list][i].end()) continue;
+      const auto& text = uri->get_ref<const std::string&>();
+      if (text == name || percent_decoded(text) == name) return item(std::string("/") + list, i) + "/uri";
+    }
+  }
+  return "";
+}
+
 /// What tinygltf reads through us, and what became of it.
 struct Folder {
+  const GltfModel& gltf;
   std::filesystem::path file;
   bool allow_path;
   std::optional<Fault> fault;
@@ -47,7 +79,8 @@ struct Folder {
 bool read_for_tinygltf(std::vector<unsigned char>* out, std::string*, const std::string& name, void* user) {
   Folder& folder = *static_cast<Folder*>(user);
   try {
-    *out = read_whole_file(referenced_file(folder.file, name, folder.allow_path, place(folder.file.string())));
+    const std::string where = folder.gltf.fault(pointer_of_uri(folder.gltf.json.root, name), "", "").where;
+    *out = read_whole_file(referenced_file(folder.file, name, folder.allow_path, where));
     return true;
   } catch (const Fault& fault) {
     if (!folder.fault) folder.fault = fault;
@@ -89,47 +122,21 @@ void check_extensions(const GltfModel& gltf) {
   }
 }
 
-/// tinygltf skips what is not a list where glTF has one; a scene with half of its parts would be no help.
-void check_lists(const GltfModel& gltf) {
-  const auto check = [&](const Json& owner, const char* key, const std::string& pointer, bool of_objects) {
-    if (!owner.contains(key)) return;
-    const Json& list = owner[key];
-    const std::string here = pointer + "/" + key;
-    if (!list.is_array()) throw gltf.fault(here, described(list), "a list");
-    for (std::size_t i = 0; of_objects && i < list.size(); ++i) {
-      if (!list[i].is_object()) throw gltf.fault(item(here, i), described(list[i]), "an object");
-    }
-  };
-  const Json& root = gltf.json.root;
-  for (const char* key : {"accessors", "animations", "buffers", "bufferViews", "cameras", "images", "materials",
-                          "meshes", "nodes", "samplers", "scenes", "skins", "textures"}) {
-    check(root, key, "", true);
-  }
-  const auto check_inside = [&](const char* key, const char* inner, bool of_objects) {
-    for (std::size_t i = 0; root.contains(key) && i < root[key].size(); ++i) {
-      check(root[key][i], inner, item(std::string("/") + key, i), of_objects);
-    }
-  };
-  check_inside("meshes", "primitives", true);
-  check_inside("nodes", "children", false);
-  check_inside("scenes", "nodes", false);
-}
-
 }  // namespace
 
 Fault GltfModel::fault(const std::string& pointer, std::string found, std::string expected) const {
-  const bool binary = !json.text.empty() && std::filesystem::path(json.file).extension() == ".glb";
   return {place(json.file, binary ? 0 : line_of_pointer(json.text, pointer), pointer), std::move(found),
           std::move(expected)};
 }
 
 GltfModel parse_gltf(const std::filesystem::path& file, Bytes bytes, bool allow_path) {
   const std::string where = place(file.string());
-  GltfModel gltf{parse_json(json_of(where, bytes), file.string()), {}, {}};
+  GltfModel gltf{parse_json(json_of(where, bytes), file.string()), is_binary(bytes), {}, {}};
+  refuse_other_kinds(gltf.json, FileKind::model);
   check_extensions(gltf);
-  check_lists(gltf);
+  check_gltf_rules(gltf);
 
-  Folder folder{file, allow_path, {}};
+  Folder folder{gltf, file, allow_path, {}};
   tinygltf::TinyGLTF reader;
   reader.SetImageLoader(keep_picture, nullptr);
   reader.SetFsCallbacks(

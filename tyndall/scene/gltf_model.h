@@ -20,6 +20,7 @@ inline constexpr std::size_t most_elements = 100'000'000;
 
 struct GltfModel {
   JsonText json;                // of the whole .gltf, or of a .glb's first chunk
+  bool binary;                  // a .glb: it has no lines
   tinygltf::Model model;        // its images hold the bytes of picture files, not pixels
   std::optional<Fault> unread;  // why a picture file it refers to could not be read
 

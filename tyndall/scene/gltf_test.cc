@@ -460,24 +460,23 @@ TEST(Gltf, RealFilesHaveWhatTheyHave) {
   EXPECT_EQ(triangle_count(read_scene(folder / "shaderball/shaderball.glb")), 88264U);
 }
 
-TEST(Gltf, MalformedFilesAreAnsweredWithAMessageOrAScene) {
+TEST(Gltf, MalformedFilesAreAnsweredWithAMessageOfLineAndPointer) {
   TYNDALL_NEEDS_SHARED_FILE(folder, "assets/gltf/malformed");
-  int files = 0, refused = 0;
+  int files = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     if (entry.path().extension() != ".gltf") continue;
     ++files;
     try {
-      const Scene scene = read_scene(entry.path());
-      // badUint has the texture index -1, badObject a list for a material: what is left is a box.
-      EXPECT_EQ(triangle_count(scene), 12U) << entry.path();
+      read_scene(entry.path());
+      ADD_FAILURE() << entry.path() << " was read";
     } catch (const Fault& fault) {
-      ++refused;
+      EXPECT_NE(fault.where.find(".gltf:"), std::string::npos) << fault.where;
+      EXPECT_NE(fault.where.find(": at /"), std::string::npos) << fault.where;
       EXPECT_NE(std::string(fault.what()).find(entry.path().filename().string()), std::string::npos) << fault.what();
       EXPECT_EQ(fault.found.find("crashes"), std::string::npos) << fault.what();
     }
   }
   EXPECT_EQ(files, 14);
-  EXPECT_EQ(refused, 12);
 }
 
 /// Truncations and flipped bits of a file with a bit of everything, by seed.

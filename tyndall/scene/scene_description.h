@@ -79,12 +79,12 @@ inline constexpr std::string_view choice_key<LightDescription> = "type";
 /// More medium where a profile is: it adds to what else is there.
 struct VolumeDescription {
   MediumReference medium;
-  Profile profile;
+  Profiles profile;
   static constexpr auto fields() {
     return std::tuple{
         Field{"medium", &VolumeDescription::medium, any_number, "", "The medium that fills it.", Scaling::none, true},
         Field{"profile", &VolumeDescription::profile, any_number, "",
-              "Where it is; profiles of the medium's own multiply.", Scaling::none, true}};
+              "Where it is; a list multiplies, and so do profiles of the medium's own.", Scaling::none, true}};
   }
 };
 

@@ -7,6 +7,7 @@
 
 #include "tyndall/document/base_medium.h"
 #include "tyndall/document/binding.h"
+#include "tyndall/document/file_kind.h"
 #include "tyndall/document/named_medium.h"
 #include "tyndall/document/reference.h"
 #include "tyndall/image/panorama.h"
@@ -91,7 +92,7 @@ void note_darkness(Scene& scene, const fs::path& file) {
 
 /// What in a medium is outside what physics allows, once for each place; the medium is at `pointer` of the file.
 void note_remarks(Scene& scene, const MediumFile& medium, const std::string& file, const std::string& pointer) {
-  for (const Remark& remark : remarks_on(dials_in_metres(medium))) {
+  for (const Remark& remark : remarks_on(medium)) {
     const std::string text = remark_text(remark, file, pointer);
     if (std::ranges::find(scene.warnings, text) == scene.warnings.end()) scene.warnings.push_back(text);
   }
@@ -162,7 +163,7 @@ class Assembly {
     for (std::size_t i = 0; i < description.volumes.size(); ++i) {
       const JsonCursor at = root_.at("volumes").at(i);
       add_medium(description.volumes[i].medium, at.at("medium"),
-                 {metres(description.volumes[i].profile, at.at("profile"))});
+                 metres(description.volumes[i].profile, at.at("profile")).all);
     }
     std::optional<GltfCamera> camera;
     for (std::size_t i = 0; i < description.geometry.size(); ++i) {
@@ -187,16 +188,8 @@ class Assembly {
   template <class T>
   T metres(const T& value, const JsonCursor& at) const {
     T scaled = in_metres(value, unit_);
-    if constexpr (Described<T>) {
-      if (auto objection = unusable_number(scaled)) throw at.fault_below(*objection);
-    } else {
-      std::visit([&](const auto& chosen) { metres_checked(chosen, at); }, scaled);
-    }
-    return scaled;
-  }
-  template <class T>
-  static void metres_checked(const T& scaled, const JsonCursor& at) {
     if (auto objection = unusable_number(scaled)) throw at.fault_below(*objection);
+    return scaled;
   }
 
   /// The file that a text of this scene names.
@@ -283,7 +276,9 @@ void complete_medium(Json& owner, const Json& meters_per_unit) {
 
 Scene read_scene(const fs::path& file, const SceneOptions& options) {
   if (is_gltf(file)) return scene_of_gltf(file, options);
+  refuse_other_kinds(file, FileKind::scene);
   JsonText json = read_json(file, options.allow_path);
+  refuse_other_kinds(json, FileKind::scene);
   if (json.root.is_object()) {
     const Json unit = json.root.value("meters_per_unit", Json{});
     complete_medium(json.root, unit);
