@@ -13,14 +13,14 @@ namespace {
 /// What a picture of `single` shows: six digits at most; probes ask for more (probe.cc).
 SingleSettings picture_settings() { return {.tolerance = 1e-6, .sky_directions = 128}; }
 
-bool is_single(const RenderSettings& settings) { return settings.integrator == "single"; }
-
-/// Paths to learn from: as many as a sample for each pixel, within limits. Not more for a picture of more samples: what
-/// is learned must be the same when it is gone on with.
-std::uint64_t lessons(const Film& film) {
-  constexpr std::uint64_t least = 1u << 11, most = 1u << 16;
-  return std::clamp(static_cast<std::uint64_t>(film.width) * static_cast<std::uint64_t>(film.height), least, most);
+/// Paths to learn from, for a film: little work beside its own samples. Not by how many those will be, which samples
+/// must not know.
+std::uint64_t lessons_for(const Film& film) {
+  const auto pixels = static_cast<std::uint64_t>(film.width) * static_cast<std::uint64_t>(film.height);
+  return std::clamp<std::uint64_t>(pixels / 2, 1u << 11, 1u << 16);
 }
+
+bool is_single(const RenderSettings& settings) { return settings.integrator == "single"; }
 
 /// One sample, exact but for its quadratures; spp says how finely pixels that see a lamp average their footprint.
 class SingleSampler : public Sampler {
@@ -42,7 +42,7 @@ class PathSampler : public Sampler {
         camera_(scene.camera, scene.film),
         width_(static_cast<std::uint64_t>(scene.film.width)),
         seed_(settings.seed) {
-    context_.learn(camera_, scene.film, lessons(scene.film), seed_, threads);
+    context_.learn(camera_, scene.film, lessons_for(scene.film), seed_, threads);
     for (int i = 0; i < threads; ++i) tracers_.push_back(std::make_unique<PathTracer>(context_));
   }
   void add(int x, int y, Pixel& pixel, int thread) override {
