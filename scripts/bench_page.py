@@ -32,7 +32,7 @@ CAUSES = {
     ("density", "fournier_forand"): "its powers take two logarithms and three exponentials",
     ("sample", "fournier_forand"): "one evaluation of the lobe alone is more than half of this",
     ("density", "droplet:diameter=5"): "four lobes, where two fits are cross-faded",
-    ("sample", "droplet"): "every step evaluates every lobe, and Draine's takes seven divisions and two roots",
+    ("sample", "droplet"): "the search takes 0.6 ns, each step Draine's lobe 0.4 ns for every fit in use and Henyey-Greenstein's 0.2 ns",
     ("sample", "draine:g=0.3"): "next to no light is scattered sideways: two steps, where one is enough for most",
     ("sample", "draine"): "the search alone takes 0.6 ns and the lobe 0.4",
     ("sample", "cornette_shanks"): "the search alone takes 0.6 ns and the lobe 0.4",
