@@ -4,8 +4,8 @@
 set -eu
 program=$1
 out=$2
-size=${SIZE:-400x225}
-spp=${SPP:-12}
+size=${SIZE:-336x189}
+spp=${SPP:-16}
 cd "$(dirname "$0")/.."
 mkdir -p "$out"
 out=$(cd "$out" && pwd)

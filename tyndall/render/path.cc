@@ -142,12 +142,13 @@ struct PathTracer::State {
   /// Russian roulette. By promise: throughput times the light to be had where the walk is, relative to where it began;
   /// its weight never grows beyond what that promise has lost. By depth (PathContext, follow_through): weights grow no
   /// faster than the depth, so variance stays bounded wherever light is lost. Last resort against endless walks: beyond
-  /// 256 events the weight grows as the square of the depth, so that those who got far are few, but bring no sparks.
+  /// 256 events the weight grows as the depth, besides: those who got far are few, but not so few that they bring
+  /// sparks.
   double survival_of(const Walk& walk) const {
     const double promise = largest(walk.beta) * context.lights.promise_at(walk.ray.origin) / walk.first_promise;
     const int depth = walk.depth();
     const bool doubled = depth >= 2 && (depth & (depth - 1)) == 0;
-    return std::clamp(4.0 * promise, 0.1, depth > 256 ? 1.0 - 2.0 / depth : 1.0) *
+    return std::clamp(4.0 * promise, 0.1, depth > 256 ? 1.0 - 1.0 / depth : 1.0) *
            (doubled ? context.follow_through : 1.0);
   }
 
@@ -495,7 +496,8 @@ struct PathTracer::State {
     if (is_zero(walk.beta * scatter.scattering())) return false;
     // Light travels against the walk: toward the eye along -direction.
     const auto toward = [&](const Vector& to_light) { return deflection_between(-to_light, -walk.ray.direction); };
-    walk.sought_sky = !context.lights.even_environment();
+    // Late walks are those that hardly find out: any way to the sky is good.
+    walk.sought_sky = walk.depth() >= 16 || !context.lights.even_environment();
     for (const auto& light : {walk.sought_sky ? context.lights.sample_environment(random) : LightSample{},
                               context.lights.sample_emitter(point, random)}) {
       if (!(light.density > 0.0)) continue;

@@ -17,7 +17,7 @@ SingleSettings picture_settings() { return {.tolerance = 1e-6, .sky_directions =
 /// must not know.
 std::uint64_t lessons_for(const Film& film) {
   const auto pixels = static_cast<std::uint64_t>(film.width) * static_cast<std::uint64_t>(film.height);
-  return std::clamp<std::uint64_t>(pixels / 2, 1u << 11, 1u << 16);
+  return std::clamp<std::uint64_t>(pixels / 2, 256, 1u << 16);
 }
 
 bool is_single(const RenderSettings& settings) { return settings.integrator == "single"; }

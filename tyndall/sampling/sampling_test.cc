@@ -6,6 +6,7 @@
 
 #include "tyndall/sampling/direction.h"
 #include "tyndall/sampling/random_stream.h"
+#include "tyndall/sampling/square_tree.h"
 
 namespace tyndall {
 namespace {
@@ -146,6 +147,37 @@ TEST(Direction, SamplersHaveTheirMoments) {
     return sample_cone(frame, 0.1, a, r.next());
   };
   expect_mean(cone, cosine, 0.95);
+}
+
+/// What it samples has the density that it states, over the whole square, and more of it where points were.
+TEST(SquareTree, SamplesByItsDensityWhichFollowsThePoints) {
+  RandomStream random(11, 0, 0);
+  std::vector<SquareTree::Point> points;
+  for (int i = 0; i < 3000; ++i) {
+    const double u = 0.3 + 0.02 * random.next();
+    points.push_back({static_cast<float>(u), static_cast<float>(random.next()), 1.0F});
+  }
+  const SquareTree even, tree(points);
+  EXPECT_EQ(even.density(0.2, 0.7), 1.0);
+  EXPECT_EQ(tree.density(1.2, 0.7), 0.0);
+  EXPECT_GT(tree.density(0.31, 0.5), 20.0);
+  EXPECT_NEAR(tree.density(0.9, 0.9), SquareTree::even_share, 1e-12);
+  // The mean of f / density is the integral of f, for f that tell every quarter apart.
+  double area = 0.0, moment = 0.0, squares = 0.0;
+  constexpr int n = 200000;
+  for (int i = 0; i < n; ++i) {
+    const double xi = random.next();
+    const SquareTree::Sample at = tree.sample(xi, random.next());
+    ASSERT_TRUE(at.u >= 0.0 && at.u <= 1.0 && at.v >= 0.0 && at.v <= 1.0);
+    ASSERT_EQ(at.density, tree.density(at.u, at.v));
+    area += 1.0 / at.density / n;
+    const double f = (1.0 + at.u * at.u * at.v) / at.density;
+    moment += f / n, squares += f * f / n;
+  }
+  const double error = std::sqrt((squares - moment * moment) / n);
+  EXPECT_NEAR(moment, 1.0 + 1.0 / 6.0, 5.0 * error);
+  EXPECT_NEAR(area, 1.0, 5.0 * error);
+  EXPECT_LT(error, 0.02);
 }
 
 }  // namespace
