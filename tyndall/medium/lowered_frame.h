@@ -44,6 +44,16 @@ class LoweredFrame {
     ++next_;
   }
 
+  /// The frame is complete: what was not put into it is not there.
+  void end() {
+    for (; next_ < slots_.size(); ++next_) {
+      for (std::size_t i = 0; i < slots_[next_].channels; ++i) {
+        LoweredSpecies& s = medium_.species[slots_[next_].first + i];
+        s.scattering = s.absorption = s.extinction = {};
+      }
+    }
+  }
+
   /// Extinction at the origin of what this frame has so far [1/m], noise at its mean.
   const Spectrum& extinction_at_origin() const { return at_origin_; }
   const LoweredMedium& medium() const { return medium_; }
