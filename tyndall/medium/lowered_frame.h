@@ -1,5 +1,6 @@
 #pragma once
 // A lowered medium that is filled again for every frame: nothing allocates once the first frames have been.
+#include <array>
 #include <optional>
 #include <variant>
 #include <vector>
