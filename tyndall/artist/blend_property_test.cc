@@ -130,7 +130,7 @@ Spectrum scattered_at(const Medium& medium, const Vector& p, double mu) {
 void same_medium(const Medium& got, const Medium& expected, double relative) {
   for (const Vector& p : places) {
     // A held visibility is a difference at the origin: elsewhere its rounding may be all that there is.
-    const Spectrum scale = extinction_at(expected, p) + 1e-3 * extinction_at(expected, {});
+    const Spectrum scale = extinction_at(expected, p) + 1e-3 * extinction_at(expected, {}) + Spectrum::grey(1e-6);
     near(scattering_at(got, p), scattering_at(expected, p), relative, scale);
     near(absorption_at(got, p), absorption_at(expected, p), relative, scale);
     for (const double mu : {-1.0, 0.0, 0.9}) {

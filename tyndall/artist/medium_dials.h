@@ -76,18 +76,19 @@ inline std::variant<Medium, Objection> compile(const MediumDials& dials) {
 }
 
 /// The same medium as a frame that is filled again and again; only numbers may have changed since the first time. In a
-/// frame air and ozone come first, stated species next, conditions last. False where dials contradict each other: the
-/// frame is not to be used then. Nothing allocates but in the first frames and where they do.
-inline bool compile_frame(const MediumDials& dials, double time, LoweredFrame& out) {
+/// frame air and ozone come first, stated species next, conditions last; conditions that contradict the rest are not
+/// there. Nothing allocates but in the first frames and where dials contradict each other.
+inline void compile_frame(const MediumDials& dials, double time, LoweredFrame& out) {
   out.begin(time);
-  if (dials.background && compile(*dials.background, wavelengths_of(dials.channels), out)) return false;
+  if (dials.background) compile(*dials.background, wavelengths_of(dials.channels), out);
   for (const StatedSpecies& s : dials.species) compile(s, out);
-  if (!dials.conditions) return true;
-  const double altitude = dials.background ? dials.background->altitude : 0.0;
-  const Surroundings surroundings{out.extinction_at_origin(), wavelengths_of(dials.channels),
-                                  standard_air_at(altitude).pressure};
-  return !std::visit([&](const auto& model) { return compile(model, surroundings, out).has_value(); },
-                     *dials.conditions);
+  if (dials.conditions) {
+    const double altitude = dials.background ? dials.background->altitude : 0.0;
+    const Surroundings surroundings{out.extinction_at_origin(), wavelengths_of(dials.channels),
+                                    standard_air_at(altitude).pressure};
+    std::visit([&](const auto& model) { compile(model, surroundings, out); }, *dials.conditions);
+  }
+  out.end();
 }
 
 /// What the background of a medium in SI compiles to, alone.

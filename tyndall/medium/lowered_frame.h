@@ -1,5 +1,6 @@
 #pragma once
 // A lowered medium that is filled again for every frame: nothing allocates once the first frames have been.
+#include <array>
 #include <optional>
 #include <variant>
 #include <vector>
@@ -43,6 +44,16 @@ class LoweredFrame {
       medium_.species[slot.first + i].place = same ? medium_.species[slot.first - 1].place : slot.first;
     }
     ++next_;
+  }
+
+  /// The frame is complete: what was not put into it is not there.
+  void end() {
+    for (; next_ < slots_.size(); ++next_) {
+      for (std::size_t i = 0; i < slots_[next_].channels; ++i) {
+        LoweredSpecies& s = medium_.species[slots_[next_].first + i];
+        s.scattering = s.absorption = s.extinction = {};
+      }
+    }
   }
 
   /// Extinction at the origin of what this frame has so far [1/m], noise at its mean.
