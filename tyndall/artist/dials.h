@@ -132,12 +132,18 @@ void set_between(T& out, const T& a, const T& b, double t) {
     out = {between(a.x, b.x, t), between(a.y, b.y, t), between(a.z, b.z, t)};
   } else if constexpr (OptionalMember<T>) {
     if (out) set_between(*out, *a, *b, t);
+  } else if constexpr (OneOrMoreMember<T>) {
+    set_between(out.all, a.all, b.all, t);
   } else if constexpr (ListMember<T> || ArrayMember<T>) {
     for (std::size_t i = 0; i < out.size(); ++i) set_between(out[i], a[i], b[i], t);
   } else if constexpr (Choice<T>) {
     std::visit([&]<class A>(A& chosen) { set_between(chosen, *std::get_if<A>(&a), *std::get_if<A>(&b), t); }, out);
   } else if constexpr (Described<T> && !Whole<T>) {
     for_each_field<T>([&](const auto& field) { set_between(out.*field.member, a.*field.member, b.*field.member, t); });
+  } else {
+    static_assert(Whole<T> || OneOf<T> || std::is_integral_v<T> || std::is_same_v<T, std::string> ||
+                      std::is_same_v<T, NumberFile>,
+                  "a type without description");
   }
 }
 /// Every number of two values that are alike() at t between them.
