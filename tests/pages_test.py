@@ -66,8 +66,9 @@ def examples_of_files_page_are_read(program, folder):
             with open(path, "w", encoding="utf-8") as file:
                 file.write(block)
             shown = json.loads(run(program, "show", path, "--json"))
-            # Visibility of the model alone; background, veil and soot shorten it.
-            assert 500 < shown["visibility_5"][1] < 600, shown
+            # Visibility of the model alone, which background, veil and soot shorten; the patchy fog holds it.
+            least, most = (119.9, 120.1) if "Patchy" in shown["name"] else (500, 600)
+            assert least < shown["visibility_5"][1] < most, shown
             media += 1
         else:
             path = os.path.join(folder, "page.scene.json")
@@ -75,7 +76,7 @@ def examples_of_files_page_are_read(program, folder):
                 file.write(re.sub(r'"((media|geometry)/[^"]*)"', lambda m: json.dumps(os.path.join(ROOT, "examples", m[1])), block))
             run(program, "probe", path, "--origin", "0,2,0", "--direction", "0,0,-1", "--distance", "3", "--allow-path", "--json")
             scenes += 1
-    assert (media, scenes) == (3, 2), (media, scenes)
+    assert (media, scenes) == (4, 2), (media, scenes)
 
 
 def exr_layers_add_up_to_the_picture(program, folder):

@@ -141,8 +141,8 @@ void LocalsPlan::bound_line_lengths() {
         parts.push_back(operand);
       }
     }
-    // Around it stand an indent, then "float name = ...;" or "return ...;".
-    const int room = static_cast<int>(line_length) -
+    // Around it stand an indent, deeper in loops, then "float name = ...;" or "return ...;".
+    const int room = static_cast<int>(line_length) - 4 * static_cast<int>(plans_[index(i)].loops.size()) -
                      (plans_[index(i)].local ? 18 + (e.name.empty() ? 9 : static_cast<int>(e.name.size())) : 13);
     while (!is_atom(i) && !is_mask(i) && written_length(i) > room) {
       const int longest = *std::max_element(

@@ -48,14 +48,21 @@ TEST(ShaderText, ALoopReadsAsIfWrittenByHand) {
             R"(// The deflection (mu, 1 - mu, 1 + mu) whose cumulative probability is xi, 0 <= xi <= 1.
 vec3 mie_hazy_sample(float xi) {
     float target = 2.0 * xi;
-    float u = min(min(target, 1.0), exp(log(max(target, 1.0e-37)) / 9.0));
-    for (int turn = 0; turn < 4; ++turn) {
+    float low = max(-1.0, 7.142857 * xi - 1.7142857);
+    float product = (((0.00385275 * low + 0.00577272) * low - 0.0075407) * low - 0.0243911) * low;
+    float product_b = target * (((product - 0.0247435) * low - 0.0125451) * low + 0.997269);
+    float high = 3.2258065 * xi - 2.2258065;
+    float product_c = (((-0.00359796 * high + 0.00931597) * high - 0.0132572) * high + 0.0222215) * high;
+    float sum = ((product_c - 0.0446644) * high + 0.11216) * high + 0.917812;
+    float u = xi < 0.38 ? product_b : sum;
+    for (int turn = 0; turn < 1; ++turn) {
         float u2 = u * u;
         float power = u * u2 * (u2 * u2);
         float excess = power * u * u + u - target;
         float slope = 9.0 * power * u + 1.0;
         float curve = 72.0 * power;
-        float halley = 2.0 * excess * slope / (2.0 * slope * slope - excess * curve);
+        float difference = 2.0 * slope * slope - excess * curve;
+        float halley = 2.0 * excess * slope / difference;
         u = max(0.0, u - halley);
     }
     float root = min(1.0, u);
