@@ -88,8 +88,9 @@ def exr_layers_add_up_to_the_picture(program, folder):
     total = 0.0
     for c in "RGB":
         for i, value in enumerate(planes[c]):
-            parts = sum(planes[layer + c][i] for layer in ("surface.", "single.", "multiple."))
-            assert math.isclose(value, parts, rel_tol=1e-5, abs_tol=1e-12), (c, i, value, parts)
+            for layers in (("surface.", "single.", "multiple."), ("surface.", "order1.", "order2.", "order3.")):
+                parts = sum(planes[layer + c][i] for layer in layers)
+                assert math.isclose(value, parts, rel_tol=1e-5, abs_tol=1e-12), (c, i, value, layers, parts)
             total += value
     assert total > 0.0
     assert any(math.isinf(z) for z in planes["depth.Z"]) and any(0.0 < z < 1000.0 for z in planes["depth.Z"])

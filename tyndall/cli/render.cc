@@ -63,8 +63,8 @@ void heed_signals() {
 
 /// A Fault where the picture would take more memory than the machine has: better than being killed for it.
 void check_memory(const Film& film) {
-  // While sampling, a Pixel each; at the end, the planes as well (22 floats leave room for files being packed).
-  constexpr double bytes_per_pixel = sizeof(Pixel) + 22 * sizeof(float);
+  // While sampling, a Pixel each; at the end, the planes as well (31 floats leave room for files being packed).
+  constexpr double bytes_per_pixel = sizeof(Pixel) + 31 * sizeof(float);
   const double need = bytes_per_pixel * film.width * film.height;
   const double have = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
   if (need <= have) return;

@@ -15,7 +15,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-constexpr std::size_t numbers_per_pixel = 5 * channel_count + 1;
+constexpr std::size_t numbers_per_pixel = (LightByOrder::parts.size() + 2) * channel_count + 1;
 constexpr std::size_t bytes_per_pixel = numbers_per_pixel * 8 + 4;
 constexpr std::size_t longest_head = 4096;
 
@@ -33,7 +33,9 @@ T take(const std::uint8_t*& at) {
 /// Calls visit with every double of a pixel, in the order of the file.
 template <class P, class Visit>
 void for_each_number(P& pixel, Visit visit) {
-  for (auto* sum : {&pixel.surface, &pixel.single, &pixel.multiple, &pixel.beauty_squared, &pixel.transmittance})
+  for (auto part : LightByOrder::parts)
+    for (auto& x : (pixel.light.*part).value) visit(x);
+  for (auto* sum : {&pixel.beauty_squared, &pixel.transmittance})
     for (auto& x : sum->value) visit(x);
   visit(pixel.depth);
 }

@@ -37,8 +37,9 @@ Image SampleFilm::develop() const {
   Image image{width_, height_, {}, {}};
   const std::size_t beauty = add_layer(image, ""), single = add_layer(image, "single"),
                     surface = add_layer(image, "surface"), multiple = add_layer(image, "multiple"),
-                    transmittance = add_layer(image, "transmittance"), variance = add_layer(image, "variance"),
-                    depth = add_plane(image, "depth", "Z");
+                    once = add_layer(image, "order1"), twice = add_layer(image, "order2"),
+                    more = add_layer(image, "order3"), transmittance = add_layer(image, "transmittance"),
+                    variance = add_layer(image, "variance"), depth = add_plane(image, "depth", "Z");
   for (std::size_t i = 0; i < pixels_.size(); ++i) {
     const Pixel& p = pixels_[i];
     const double n = std::max(1u, p.samples);
@@ -46,9 +47,12 @@ Image SampleFilm::develop() const {
       for (std::size_t c = 0; c < 3; ++c) image.planes[layer + c].values[i] = as_float(x[c]);
     };
     put(beauty, mean_beauty(p));
-    put(single, p.single / n);
-    put(surface, p.surface / n);
-    put(multiple, p.multiple / n);
+    put(single, p.light.single / n);
+    put(surface, p.light.surface / n);
+    put(multiple, p.light.multiple() / n);
+    put(once, p.light.once() / n);
+    put(twice, p.light.twice / n);
+    put(more, p.light.more / n);
     put(transmittance, p.transmittance / n);
     put(variance, variance_of_mean(p));
     image.planes[depth].values[i] = p.depth == infinity ? std::numeric_limits<float>::infinity() : as_float(p.depth);

@@ -11,15 +11,14 @@ namespace tyndall {
 
 /// Sums over the samples of one pixel.
 struct Pixel {
-  Spectrum surface, single, multiple, beauty_squared, transmittance;
+  LightByOrder light;
+  Spectrum beauty_squared, transmittance;
   double depth = infinity;  // [m], through the pixel's centre
   std::uint32_t samples = 0;
 };
 
 /// A pixel's mean beauty, and the variance of that mean per channel (unbiased; 0 for fewer than two samples).
-inline Spectrum mean_beauty(const Pixel& p) {
-  return (p.surface + p.single + p.multiple) / static_cast<double>(std::max(1u, p.samples));
-}
+inline Spectrum mean_beauty(const Pixel& p) { return p.light.sum() / static_cast<double>(std::max(1u, p.samples)); }
 inline Spectrum variance_of_mean(const Pixel& p) {
   if (p.samples < 2) return {};
   const double n = p.samples;
@@ -42,17 +41,15 @@ class SampleFilm {
 
   /// Adds the next sample of a pixel.
   static void add(Pixel& pixel, const PathSample& sample) {
-    const Spectrum beauty = sample.beauty();
-    pixel.surface += sample.surface;
-    pixel.single += sample.single;
-    pixel.multiple += sample.multiple;
+    const Spectrum beauty = sample.light.sum();
+    pixel.light += sample.light;
     pixel.beauty_squared += beauty * beauty;
     pixel.transmittance += sample.transmittance;
     ++pixel.samples;
   }
   /// Sets a pixel to a value that needs no averaging.
   static void set(Pixel& pixel, const PixelLayers& layers) {
-    pixel = {layers.surface, layers.single, {}, {}, layers.transmittance, layers.depth, 1};
+    pixel = {{layers.surface, layers.single, {}, {}, {}}, {}, layers.transmittance, layers.depth, 1};
     pixel.beauty_squared = mean_beauty(pixel) * mean_beauty(pixel);
   }
 
@@ -63,8 +60,8 @@ class SampleFilm {
   /// most: even samples (RandomStream) do better than the independent ones that this supposes.
   double noise() const;
 
-  /// The layers of an image file: beauty, single, surface, multiple, transmittance, depth.Z, variance. Pixels without
-  /// samples are black; what a float cannot hold is its largest value.
+  /// The layers of an image file: beauty, single, surface, multiple, order1, order2, order3, transmittance, depth.Z,
+  /// variance. Pixels without samples are black; what a float cannot hold is its largest value.
   Image develop() const;
 
  private:

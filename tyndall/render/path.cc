@@ -55,9 +55,8 @@ struct PathTracer::State {
 
   /// Adds radiance that reached the eye after the walk's events and `scatterings`, `bounces` more.
   void add(const Walk& walk, const Spectrum& radiance, int scatterings, int bounces) {
-    const int s = walk.scatterings + scatterings, b = walk.bounces + bounces;
     if (!is_finite(radiance)) return;
-    (s == 0 ? out.surface : s == 1 && b == 0 ? out.single : out.multiple) += radiance;
+    out.light.of(walk.scatterings + scatterings, walk.bounces + bounces) += radiance;
   }
 
   /// Transmittance of medium and surfaces over a stretch of a ray; zero when a surface is in the way.

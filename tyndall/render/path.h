@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tyndall/medium/lowered_medium.h"
+#include "tyndall/render/light_by_order.h"
 #include "tyndall/sampling/random_stream.h"
 #include "tyndall/scene/geometry.h"
 #include "tyndall/scene/scene.h"
@@ -38,15 +39,11 @@ class PathContext {
   std::unique_ptr<Prepared> prepared_;
 };
 
-/// One unbiased estimate of the radiance along a ray [W/(m^2 sr)], by what happened to the light.
+/// One unbiased estimate of the radiance along a ray.
 struct PathSample {
-  Spectrum surface;   // never scattered by a medium
-  Spectrum single;    // scattered by a medium exactly once, no surface bounce
-  Spectrum multiple;  // the rest
+  LightByOrder light;
   Spectrum transmittance;
   double depth = infinity;  // distance to the surface seen [m]
-
-  Spectrum beauty() const { return surface + single + multiple; }
 };
 
 /// Traces paths; one per thread, for its scratch memory.

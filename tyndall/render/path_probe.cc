@@ -41,7 +41,7 @@ ProbeEstimate path_probe(const PathContext& context, const Ray& ray, double dist
                          std::uint64_t seed, int threads) {
   ProbeEstimate estimate = average(context, spp, threads, [&](PathTracer& tracer, std::uint32_t i) {
     RandomStream random(seed, 0, i);
-    return tracer.trace(ray, distance, random).beauty();
+    return tracer.trace(ray, distance, random).light.sum();
   });
   const auto hit = context.prepared().geometry.intersect(ray);
   std::vector<Stretch> scratch;
@@ -76,7 +76,7 @@ ProbeEstimate path_fluence(const PathContext& context, const Vector& point, std:
       density += 0.5 / (2.0 * std::numbers::pi * std::numbers::pi * std::max(sine, 1e-12) *
                         static_cast<double>(toward.size()));
     }
-    return tracer.trace({point, normalized(direction)}, infinity, random, false).beauty() / density;
+    return tracer.trace({point, normalized(direction)}, infinity, random, false).light.sum() / density;
   });
   std::vector<Stretch> scratch;
   const auto visible = [&](const Ray& ray, double distance) {

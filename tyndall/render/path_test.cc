@@ -159,6 +159,42 @@ TEST(Path, LimitedToOneEventAgreesWithSingle) {
   }
 }
 
+/// Without surfaces a path of n events has been scattered n times: what a limit of n events adds to one of n - 1 is the
+/// light of order n.
+TEST(Path, OrdersAreWhatLimitsOfEventsAdd) {
+  Scene scene = tests::busy_scene();
+  scene.meshes.clear();
+  const Geometry geometry(scene);
+  const Ray ray{scene.camera.position, normalized(Vector{-0.4, 0.9, -1.0} - scene.camera.position)};
+  constexpr int samples = 30000;
+  const PathContext all(scene, geometry);
+  PathTracer tracer(all);
+  std::array<Spectrum, 4> mean, square;
+  for (std::uint32_t i = 0; i < samples; ++i) {
+    RandomStream random(5, 0, i);
+    const LightByOrder light = tracer.trace(ray, infinity, random).light;
+    EXPECT_EQ(light.once_reflected, Spectrum{});
+    const std::array<Spectrum, 4> orders{light.surface, light.once(), light.twice, light.more};
+    for (std::size_t k = 0; k < 4; ++k) mean[k] += orders[k] / samples, square[k] += orders[k] * orders[k] / samples;
+  }
+  std::array<ProbeEstimate, 4> limited;
+  for (std::size_t k = 1; k < 4; ++k) {
+    const PathContext context(scene, geometry, k < 3 ? static_cast<int>(k) : 0);
+    limited[k] = path_probe(context, ray, infinity, samples, 7 + k);
+  }
+  for (std::size_t c = 0; c < channel_count; ++c) {
+    double below = mean[0][c], error_below = 0.0;  // what the eye sees unscattered has no noise here
+    for (std::size_t k = 1; k < 4; ++k) {
+      const double added = limited[k].radiance[c] - below, error = limited[k].standard_error[c];
+      const double own = (square[k][c] - mean[k][c] * mean[k][c]) / samples;
+      EXPECT_NEAR(mean[k][c], added, 4.0 * std::sqrt(own + error * error + error_below * error_below)) << k << c;
+      EXPECT_GT(mean[k][c], 6.0 * std::sqrt(own)) << k << c;
+      below = limited[k].radiance[c];
+      error_below = error;
+    }
+  }
+}
+
 /// Spots are followed along their rays through the air, point lights are not: two strategies, one mean.
 TEST(Path, TwoHalvesOfASphereAreAPointLight) {
   Scene scene;
@@ -229,7 +265,7 @@ TEST(Render, ThePictureDoesNotDependOnThreadsOrTileOrder) {
     if (integrator == std::string("single"))
       scene.film = {6, 4};  // its fixed quadratures of sky and panel take their time
     const std::vector<Plane> one = planes_with(1, 0, scene, integrator);
-    ASSERT_EQ(one.size(), 19u);
+    ASSERT_EQ(one.size(), 28u);
     for (const auto& [threads, order] : {std::pair{2, 0u}, {3, 0u}, {7, 0u}, {2, 42u}, {7, 7u}}) {
       const std::vector<Plane> other = planes_with(threads, order, scene, integrator);
       for (std::size_t i = 0; i < one.size(); ++i) {
@@ -292,6 +328,9 @@ TEST(Render, LayersAddUpToTheBeautyAndAreFiniteAndNotNegative) {
     EXPECT_GE(plane("transmittance.B")[i], 0.0f);
     EXPECT_LE(plane("transmittance.B")[i], 1.0f);
     EXPECT_GT(plane("depth.Z")[i], 0.0f);
+    const float orders = plane("order1.G")[i] + plane("order2.G")[i] + plane("order3.G")[i];
+    EXPECT_NEAR(sum, plane("surface.G")[i] + orders, 1e-6f * std::max(1.0f, sum));
+    EXPECT_GE(plane("order1.G")[i], plane("single.G")[i] * (1.0f - 1e-6f));
     scattered += plane("single.G")[i] + plane("multiple.G")[i];
     all += plane("G")[i];
   }
