@@ -87,11 +87,11 @@ std::optional<Objection> compile(const Background& background, const Spectrum& w
   }
   const double density = standard_air_at(background.altitude).relative_density * background.exaggeration;
   add_species(out, "air", air_scattering(background.air, wavelengths_nm) * density, {},
-              air_law(background.air, wavelengths_nm), background.profile);
+              air_law(background.air, wavelengths_nm), factors_of(background.profile));
   if (background.ozone) {
     const Spectrum absorption = map(wavelengths_nm, [&](double nm) { return ozone_absorption(nm, *background.ozone); });
-    add_species(out, "ozone", {}, absorption * background.exaggeration, Isotropic<double>{},
-                TentProfile{ozone_centre - background.altitude, ozone_half_width});
+    const Profile layer = TentProfile{ozone_centre - background.altitude, ozone_half_width};
+    add_species(out, "ozone", {}, absorption * background.exaggeration, Isotropic<double>{}, {&layer, 1});
   }
   return std::nullopt;
 }

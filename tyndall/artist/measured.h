@@ -138,7 +138,7 @@ std::optional<Objection> compile(const Measured& m, const Surroundings& others, 
   }
   const Law<double> phase =
       m.mean_cosine ? Law<double>{HenyeyGreenstein<double>{*m.mean_cosine}} : law_of(m.air, m.diameter());
-  add_species(out, word_of(m.air), scattering, absorption, phase, m.profile);
+  add_species(out, word_of(m.air), scattering, absorption, phase, factors_of(m.profile));
   return std::nullopt;
 }
 

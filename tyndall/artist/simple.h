@@ -85,8 +85,8 @@ std::optional<Objection> compile(const Simple& simple, const Surroundings& other
     thickness *= std::fmax(0.0, stated - rest) / (stated * here);
     k = simple_shares(simple.w);
   }
-  add_species_of(out, "hazy", k.hazy * thickness, simple.albedo, MieHazy<double>{}, simple.profile);
-  add_species_of(out, "murky", k.murky * thickness, simple.albedo, MieMurky<double>{}, simple.profile);
+  add_species_of(out, "hazy", k.hazy * thickness, simple.albedo, MieHazy<double>{}, factors_of(simple.profile));
+  add_species_of(out, "murky", k.murky * thickness, simple.albedo, MieMurky<double>{}, factors_of(simple.profile));
   compile(simple.veil, simple.profile, out);
   return std::nullopt;
 }

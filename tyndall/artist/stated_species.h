@@ -1,6 +1,7 @@
 #pragma once
 // A species as a person states it; and the keys by which laws and profiles are told apart where they are stated.
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -104,34 +105,37 @@ constexpr auto demands_of(const StatedSpecies&) {
                     not_both("absorption", "density"), needs("albedo", "density")};
 }
 
-inline std::vector<Profile> profiles_of(const std::optional<Profiles>& profile) {
-  return profile ? profile->all : std::vector<Profile>{};
+/// What a product is of; none where there is no profile.
+inline std::span<const Profile> factors_of(const std::optional<Profiles>& profile) {
+  return profile ? std::span<const Profile>(profile->all) : std::span<const Profile>{};
 }
 
 /// Adds a species unless it does nothing to light.
 inline void add_species(std::vector<Species>& out, std::string_view name, const Spectrum& scattering,
-                        const Spectrum& absorption, const Law<double>& phase, const std::optional<Profiles>& profile) {
+                        const Spectrum& absorption, const Law<double>& phase, std::span<const Profile> profiles) {
   if (is_zero(scattering + absorption)) return;
-  out.push_back({std::string(name), scattering, absorption, phase, profiles_of(profile)});
+  out.push_back({std::string(name), scattering, absorption, phase, {profiles.begin(), profiles.end()}});
 }
 /// The same into a frame, where what does nothing keeps its place.
 inline void add_species(LoweredFrame& out, std::string_view /*name*/, const Spectrum& scattering,
-                        const Spectrum& absorption, const Law<double>& phase, const std::optional<Profiles>& profile) {
-  out.put(scattering, absorption, phase, profile);
+                        const Spectrum& absorption, const Law<double>& phase, std::span<const Profile> profiles) {
+  out.put(scattering, absorption, phase, profiles);
 }
 /// Adds a species of this extinction [1/m] and albedo to either.
 template <class Out>
 void add_species_of(Out& out, std::string_view name, const Spectrum& extinction, const Spectrum& albedo,
-                    const Law<double>& phase, const std::optional<Profiles>& profile) {
-  add_species(out, name, extinction * albedo, extinction * (Spectrum::grey(1.0) - albedo), phase, profile);
+                    const Law<double>& phase, std::span<const Profile> profiles) {
+  add_species(out, name, extinction * albedo, extinction * (Spectrum::grey(1.0) - albedo), phase, profiles);
 }
 
 template <class Out>
 void compile(const StatedSpecies& s, Out& out) {
   if (s.density) {
-    add_species_of(out, s.name, extinction_of(*s.density), s.albedo.value_or(Spectrum::grey(1.0)), s.phase, s.profile);
+    add_species_of(out, s.name, extinction_of(*s.density), s.albedo.value_or(Spectrum::grey(1.0)), s.phase,
+                   factors_of(s.profile));
   } else {
-    add_species(out, s.name, s.scattering.value_or(Spectrum{}), s.absorption.value_or(Spectrum{}), s.phase, s.profile);
+    add_species(out, s.name, s.scattering.value_or(Spectrum{}), s.absorption.value_or(Spectrum{}), s.phase,
+                factors_of(s.profile));
   }
 }
 

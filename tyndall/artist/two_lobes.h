@@ -43,9 +43,9 @@ template <class Out>
 std::optional<Objection> compile(const TwoLobes& lobes, const Surroundings& /*others*/, Out& out) {
   const Spectrum thickness = extinction_of(lobes.thickness);
   add_species_of(out, "first lobe", (1.0 - lobes.r) * thickness, lobes.albedo, HenyeyGreenstein<double>{lobes.g1},
-                 lobes.profile);
+                 factors_of(lobes.profile));
   add_species_of(out, "second lobe", lobes.r * thickness, lobes.albedo, HenyeyGreenstein<double>{lobes.g2},
-                 lobes.profile);
+                 factors_of(lobes.profile));
   compile(lobes.veil, lobes.profile, out);
   return std::nullopt;
 }

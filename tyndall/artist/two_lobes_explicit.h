@@ -50,7 +50,7 @@ template <class Out>
 std::optional<Objection> compile(const TwoLobesExplicit& lobes, const Surroundings& /*others*/, Out& out) {
   const auto add = [&](std::string_view name, const ExplicitLobe& lobe) {
     add_species_of(out, name, extinction_of(lobe.thickness), lobe.albedo, HenyeyGreenstein<double>{lobe.g},
-                   lobes.profile);
+                   factors_of(lobes.profile));
   };
   add("first lobe", lobes.first);
   add("second lobe", lobes.second);

@@ -24,7 +24,8 @@ struct Veil {
 
 template <class Out>
 void compile(const std::optional<Veil>& veil, const std::optional<Profiles>& profile, Out& out) {
-  if (veil) add_species_of(out, "veil", extinction_of(veil->density), veil->albedo, Isotropic<double>{}, profile);
+  if (veil)
+    add_species_of(out, "veil", extinction_of(veil->density), veil->albedo, Isotropic<double>{}, factors_of(profile));
 }
 
 /// A remark where a thickness is stated by a visibility that even clear air does not have, in green. In SI.

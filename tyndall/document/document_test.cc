@@ -419,8 +419,8 @@ TEST(Blended, ResultsCanBeWrittenAndRead) {
   for (int i = 0; i < 500; ++i) {
     MediumFile a, b;
     static_cast<MediumDials&>(a) = dice.medium();
-    static_cast<MediumDials&>(b) = dice.medium();
     b.meters_per_unit = dice.magnitude(0.1, 10.0);
+    static_cast<MediumDials&>(b) = in_metres(dice.medium(), 1.0 / b.meters_per_unit);
     for (const BlendHow how : {BlendHow::mix, BlendHow::morph}) {
       const MediumFile between = blended(a, b, dice.between(0.0, 1.0), how);
       EXPECT_TRUE(same(between, medium_from_json(medium_to_json(between), "t")));

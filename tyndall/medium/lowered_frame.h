@@ -1,7 +1,7 @@
 #pragma once
 // A lowered medium that is filled again for every frame: nothing allocates once the first frames have been.
 #include <array>
-#include <optional>
+#include <span>
 #include <variant>
 #include <vector>
 
@@ -22,10 +22,10 @@ class LoweredFrame {
   }
 
   void put(const Spectrum& scattering, const Spectrum& absorption, const Law<double>& law,
-           const std::optional<Profiles>& profiles) {
-    if (next_ == slots_.size()) add_slot(law, profiles);
+           std::span<const Profile> profiles) {
+    if (next_ == slots_.size()) add_slot(law);
     Slot& slot = slots_[next_];
-    if (profiles) slot.profiles = profiles->all;  // as many as before: in place
+    slot.profiles.assign(profiles.begin(), profiles.end());  // as many as before: in place
     double here = 1.0;
     for (const Profile& profile : slot.profiles) here *= mean_factor(profile, Vector{});
     at_origin_ += (scattering + absorption) * here;
@@ -92,11 +92,10 @@ class LoweredFrame {
     if (!tyndall::place(s, slot.profiles, time_)) s.scattering = s.absorption = s.extinction = {};
   }
 
-  void add_slot(const Law<double>& law, const std::optional<Profiles>& profiles) {
+  void add_slot(const Law<double>& law) {
     Slot slot;
     slot.first = medium_.species.size();
     slot.channels = is_chromatic(law) ? channel_count : 1;
-    if (profiles) slot.profiles = profiles->all;
     for (std::size_t i = 0; i < slot.channels; ++i) {
       LoweredSpecies s;
       s.first_lobe = medium_.lobes.size();
