@@ -13,6 +13,7 @@ const tests::BadFile bad_files[] = {
     {"base_a_number", 3, "/base", "number 3", "the name of a medium file or of a preset"},
     {"base_absent", 3, "/base", "does not exist", "an existing file"},
     {"base_is_bad", 4, "/conditions/visibility", "number -1", "above 0"},
+    {"base_keyframes_beside_conditions", 4, "/keyframes", "keyframes beside conditions", "one or the other"},
     {"base_long_name", 3, "/base", "xxx...", "a medium file, or one of"},
     {"base_misspelled", 3, "/bases", "unknown key \"bases\"", "did you mean \"base\"?"},
     {"base_of_itself", 3, "/base", "leads back to itself", "does not build on this one"},

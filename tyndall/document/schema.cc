@@ -81,6 +81,15 @@ void add_demand(OrderedJson& schema, const Demand& demand) {
   }
 }
 
+void add_demand_on_part(OrderedJson& schema, const Demand& demand) {
+  if (demand.kind != Demand::Kind::not_both) return;
+  // null takes away what the base has, so it may stand beside.
+  const std::string first(demand.names[0]), second(demand.names[1]);
+  const OrderedJson there{{"not", {{"type", "null"}}}}, gone{{"type", "null"}};
+  schema["allOf"].push_back({{"if", {{"required", {first}}, {"properties", {{first, there}}}}},
+                             {"then", {{"properties", {{second, gone}}}}}});
+}
+
 OrderedJson medium_schema() {
   const char* const example = R"({"format": "tyndall-medium/1", "name": "Harbour fog at dawn",
     "background": {"air": "note"},

@@ -35,6 +35,8 @@ OrderedJson words_schema(const std::vector<std::string_view>& words);
 void describe(OrderedJson& schema, const FieldFacts& facts);
 /// Adds a demand to the schema of an object whose fields are already in it.
 void add_demand(OrderedJson& schema, const Demand& demand);
+/// The same for what is laid over a base: only what no base can put right.
+void add_demand_on_part(OrderedJson& schema, const Demand& demand);
 
 /// Whether a default-constructed T would be read back: then it may serve as an example.
 template <Described T>
@@ -202,7 +204,7 @@ class SchemaBook {
     schema["additionalProperties"] = false;
     if constexpr (requires { demands_of(defaults); }) {
       for (const Demand& demand : demands_of(defaults)) {
-        if (!partial_) add_demand(schema, demand);
+        partial_ ? add_demand_on_part(schema, demand) : add_demand(schema, demand);
       }
     }
     return schema;
