@@ -22,7 +22,7 @@ class Document:
         self.name = name
         self.nodes, self.roots, self.meshes, self.materials = [], [], [], []
         self.textures, self.lights, self.cameras, self.blob = [], [], [], bytearray()
-        self.views, self.accessors = [], []
+        self.views, self.accessors, self.tracks = [], [], []
         self.mesh_index, self.material_index, self.texture_index = {}, {}, {}
         self.triangle_count = 0  # as drawn: a mesh counts once for every node that shows it
 
@@ -51,6 +51,12 @@ class Document:
             self.nodes[parent].setdefault("children", []).append(index)
         return index
 
+    def move(self, node, path, times, values):
+        """Keys of a node's "translation", "rotation" or "scale", in seconds; between them it goes straight."""
+        digits, kind = (UNIT_DIGITS, "VEC4") if path == "rotation" else (POSITION_DIGITS, "VEC3")
+        keys = self._vectors([(time,) for time in times], UNIT_DIGITS, "SCALAR", bounds=True, target=None)
+        self.tracks.append((node, path, keys, self._vectors(values, digits, kind, target=None)))
+
     def _view(self, data, target=None):
         self.blob += b"\0" * (-len(self.blob) % 4)
         view = {"buffer": 0, "byteOffset": len(self.blob), "byteLength": len(data)}
@@ -60,7 +66,7 @@ class Document:
         self.views.append(view)
         return len(self.views) - 1
 
-    def _vectors(self, vectors, digits, kind, bounds=False):
+    def _vectors(self, vectors, digits, kind, bounds=False, target=34962):
         values = [round(value, digits) + 0.0 for vector in vectors for value in vector]
         accessor = {"componentType": 5126, "count": len(vectors), "type": kind}
         data = struct.pack("<%df" % len(values), *values)
@@ -69,7 +75,7 @@ class Document:
             width = len(vectors[0])
             accessor["min"] = [min(stored[k::width]) for k in range(width)]
             accessor["max"] = [max(stored[k::width]) for k in range(width)]
-        accessor["bufferView"] = self._view(data, 34962)
+        accessor["bufferView"] = self._view(data, target)
         self.accessors.append(accessor)
         return len(self.accessors) - 1
 
@@ -149,6 +155,15 @@ class Document:
             root["samplers"] = [{"magFilter": 9729, "minFilter": 9987, "wrapS": 10497, "wrapT": 10497}]
         if self.cameras:
             root["cameras"] = self.cameras
+        if self.tracks:
+            targets = [{"node": node, "path": path} for node, path, _, _ in self.tracks]
+            root["animations"] = [
+                {
+                    "name": self.name,
+                    "channels": [{"sampler": k, "target": target} for k, target in enumerate(targets)],
+                    "samplers": [{"input": keys, "output": values} for _, _, keys, values in self.tracks],
+                }
+            ]
         root["accessors"] = self.accessors
         root["bufferViews"] = self.views
         self.blob += b"\0" * (-len(self.blob) % 4)

@@ -36,6 +36,8 @@ COOL_WHITE = (0.84, 0.93, 1.0)
 HEADLIGHT_INTENSITY = 270.0
 CAR_AT = (-1.3, 0.0, -22.5)
 CAR_YAW = 180.0 - 31.0  # turning into a yard on the left: the beams cross the picture, not the lens
+# Where it goes on to: seconds, place, yaw.
+CAR_KEYS = [(0.0, CAR_AT, CAR_YAW), (1.0, (-2.15, 0.0, -21.2), 140.0), (2.0, (-3.3, 0.0, -20.2), 127.0)]
 
 MARKER_DISTANCES = (25, 50, 100, 200)
 
@@ -202,6 +204,9 @@ def build():
         light = point_light("sodium %02d" % number, SODIUM, LAMP_INTENSITY)
         document.node("lamp %02d light" % number, None, LAMP_LIGHT, light=light, parent=post)
     body = document.node("car", car.build(), CAR_AT, rotation_about_y(CAR_YAW))
+    times, places, yaws = zip(*CAR_KEYS)
+    document.move(body, "translation", times, places)
+    document.move(body, "rotation", times, [rotation_about_y(yaw) for yaw in yaws])
     for name, (x, y, z) in zip(("left", "right"), car.HEADLIGHTS):
         light = spot_light("headlight " + name, COOL_WHITE, HEADLIGHT_INTENSITY, 7.0, 17.0)
         aim = rotation_to_look((0.03 if x > 0 else -0.03, -0.035, -1.0))

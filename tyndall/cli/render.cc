@@ -184,7 +184,7 @@ struct Picture {
 
   /// Throws Fault.
   Picture(Job& job, int frame, bool chief) {
-    if (job.animated) set_time(job.timed, time_of(job.scene(), frame));
+    if (job.animated && set_time(job.timed, time_of(job.scene(), frame))) job.geometry.emplace(job.scene());
     subject = subject_of(job.scene(), job.settings, job.common);
     if (!chief) return;
     LongWork files = job.options.long_work;

@@ -136,6 +136,15 @@ TEST_F(InTime, FramesAreThePicturesOfTheirTimes) {
   EXPECT_EQ(files(), 2U + 6U + 2U);
 }
 
+TEST_F(InTime, FramesOfAModelThatMovesAreThePicturesOfTheirTimes) {
+  const std::string street =
+      std::string(TYNDALL_SOURCE_DIR) + "/examples/street.scene.json --quiet --size 32x18 --spp 1 ";
+  ASSERT_EQ(tyndall("render " + street + "--frames 11-13 -o a.exr").code, 0);
+  ASSERT_EQ(tyndall("render " + street + "--time 0.5 -o b.exr").code, 0);
+  EXPECT_EQ(text_of(folder_ / "a.0012.exr"), text_of(folder_ / "b.exr"));
+  EXPECT_NE(text_of(folder_ / "a.0011.exr"), text_of(folder_ / "b.exr"));
+}
+
 TEST_F(InTime, FramesThatCannotBeAreRefusedBeforeAnyWork) {
   for (const char* frames : {"3-1", "5", "-1-3", "a-b", "1-2x", "1-", "-", "1.5-2", "0-100000", "1-99999999999999"}) {
     const Outcome run = tyndall("render s.scene.json --quiet -o x.exr --frames=" + std::string(frames));

@@ -9,6 +9,7 @@
 #include "tyndall/document/spelling.h"
 #include "tyndall/document/whole_file.h"
 #include "tyndall/image/rehearsal.h"
+#include "tyndall/scene/gltf_animation.h"
 #include "tyndall/scene/gltf_material.h"
 #include "tyndall/scene/gltf_model.h"
 #include "tyndall/scene/transform.h"
@@ -22,9 +23,14 @@ constexpr double degrees = 180.0 / std::numbers::pi;
 /// Builds scene parts from a model. One per file.
 class Reading {
  public:
-  Reading(const GltfModel& gltf, Scene& scene, double unit)
-      : gltf_(gltf), model_(gltf.model), scene_(scene), unit_(unit), materials_(gltf, scene, ignored_) {}
-  std::optional<GltfCamera> run();
+  Reading(const GltfModel& gltf, Scene& scene, const GltfOptions& options)
+      : gltf_(gltf),
+        model_(gltf.model),
+        scene_(scene),
+        unit_(options.meters_per_unit),
+        poses_(poses_at(gltf, options.time, ignored_)),
+        materials_(gltf, scene, ignored_) {}
+  GltfContent run();
 
  private:
   void add_node(std::size_t index, const Transform& to_world);
@@ -34,7 +40,7 @@ class Reading {
                                                       const std::string& pointer);
   void add_light(int index, const Transform& to_world, const std::string& pointer);
   void add_camera(int index, const Transform& to_world, const std::string& pointer);
-  Transform transform_of(const tinygltf::Node& node, const std::string& pointer) const;
+  Transform transform_of(std::size_t index, const std::string& pointer) const;
   Vector unit_vector(const Vector& v, const std::string& pointer) const;
   void note_unsupported();
 
@@ -44,6 +50,7 @@ class Reading {
   double unit_;
   std::size_t vertex_count_ = 0, triangle_count_ = 0;
   std::set<std::string> ignored_;
+  std::map<std::size_t, NodePose> poses_;
   GltfMaterials materials_;
   std::optional<GltfCamera> camera_;
 };
@@ -56,7 +63,8 @@ Vector Reading::unit_vector(const Vector& v, const std::string& pointer) const {
   return v / size;
 }
 
-Transform Reading::transform_of(const tinygltf::Node& node, const std::string& pointer) const {
+Transform Reading::transform_of(std::size_t index, const std::string& pointer) const {
+  const tinygltf::Node& node = model_.nodes[index];
   const auto vector = [](const std::vector<double>& v, double missing) {
     return v.size() == 3 ? Vector{v[0], v[1], v[2]} : Vector{missing, missing, missing};
   };
@@ -67,7 +75,10 @@ Transform Reading::transform_of(const tinygltf::Node& node, const std::string& p
   } else {
     std::array<double, 4> turn{0.0, 0.0, 0.0, 1.0};
     if (node.rotation.size() == 4) std::ranges::copy(node.rotation, turn.begin());
-    t = placed(vector(node.translation, 0.0), turn, vector(node.scale, 1.0));
+    const auto moved = poses_.find(index);
+    const NodePose pose = moved == poses_.end() ? NodePose{} : moved->second;
+    t = placed(pose.translation.value_or(vector(node.translation, 0.0)), pose.rotation.value_or(turn),
+               pose.scale.value_or(vector(node.scale, 1.0)));
   }
   if (!is_finite(t.x) || !is_finite(t.y) || !is_finite(t.z) || !is_finite(t.origin)) {
     throw gltf_.fault(pointer, "a transformation that is not finite", "finite numbers");
@@ -75,7 +86,7 @@ Transform Reading::transform_of(const tinygltf::Node& node, const std::string& p
   return t;
 }
 
-std::optional<GltfCamera> Reading::run() {
+GltfContent Reading::run() {
   Transform to_metres = placed({}, {0.0, 0.0, 0.0, 1.0}, {unit_, unit_, unit_});
   // Depth first in file order, on a list rather than the call stack: trees from outside may be deep.
   struct Waiting {
@@ -116,12 +127,12 @@ std::optional<GltfCamera> Reading::run() {
     const std::string pointer = item("/nodes", next.node);
     if (seen[next.node]) throw gltf_.fault(pointer, "a node in two places of the tree", "a strict tree of nodes");
     seen[next.node] = true;
-    const Transform to_world = next.parent * transform_of(model_.nodes[next.node], pointer);
+    const Transform to_world = next.parent * transform_of(next.node, pointer);
     add_node(next.node, to_world);
     add(model_.nodes[next.node].children, to_world, pointer + "/children");
   }
   note_unsupported();
-  return camera_;
+  return {camera_, !poses_.empty()};
 }
 
 void Reading::add_node(std::size_t index, const Transform& to_world) {
@@ -314,7 +325,6 @@ void Reading::add_camera(int index, const Transform& to_world, const std::string
 }
 
 void Reading::note_unsupported() {
-  if (!model_.animations.empty()) ignored_.insert("animations");
   for (const std::string& name : model_.extensionsUsed) {
     if (name != "KHR_lights_punctual" && name != "KHR_materials_emissive_strength" && name != "KHR_texture_transform" &&
         name != "KHR_mesh_quantization") {
@@ -324,11 +334,11 @@ void Reading::note_unsupported() {
   for (const std::string& what : ignored_) scene_.warnings.push_back(place(gltf_.json.file) + ": ignored: " + what);
 }
 
-std::optional<GltfCamera> load(Scene& scene, const std::filesystem::path& file, std::span<const std::uint8_t> bytes,
-                               double unit, bool allow_path) {
+GltfContent load(Scene& scene, const std::filesystem::path& file, std::span<const std::uint8_t> bytes,
+                 const GltfOptions& options) {
   try {
-    const GltfModel gltf = parse_gltf(file, bytes, allow_path);
-    return Reading(gltf, scene, unit).run();
+    const GltfModel gltf = parse_gltf(file, bytes, options.allow_path);
+    return Reading(gltf, scene, options).run();
   } catch (const std::bad_alloc&) {
     throw Fault(place(file.string()), "a file that asks for too much memory", "a smaller one");
   }
@@ -336,15 +346,14 @@ std::optional<GltfCamera> load(Scene& scene, const std::filesystem::path& file, 
 
 }  // namespace
 
-std::optional<GltfCamera> add_gltf(Scene& scene, const std::filesystem::path& file, double meters_per_unit,
-                                   bool allow_path) {
+GltfContent add_gltf(Scene& scene, const std::filesystem::path& file, const GltfOptions& options) {
   refuse_other_kinds(file, FileKind::model);
   const std::vector<std::uint8_t> bytes = read_whole_file(file);
   rehearse(place(file.string()), "a sound glTF 2.0 file", [&] {
     Scene scratch;
-    load(scratch, file, bytes, meters_per_unit, allow_path);
+    load(scratch, file, bytes, options);
   });
-  return load(scene, file, bytes, meters_per_unit, allow_path);
+  return load(scene, file, bytes, options);
 }
 
 }  // namespace tyndall

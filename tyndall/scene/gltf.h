@@ -13,20 +13,30 @@ struct GltfCamera {
   std::optional<double> aspect;
 };
 
-/// Adds a file's meshes, materials, base-colour textures and lights to `scene`, in world space and metres, and returns
-/// its first camera that a node uses. One file unit is `meters_per_unit` metres (1 unless the file disobeys glTF).
+struct GltfOptions {
+  double meters_per_unit = 1.0;  // other than 1 where the file disobeys glTF
+  bool allow_path = false;       // files that this one refers to may lie outside its folder
+  double time = 0.0;             // [s], of its animations
+};
+
+/// What a file has besides what goes into a scene.
+struct GltfContent {
+  std::optional<GltfCamera> camera;  // the first that a node uses
+  bool moves = false;                // at another time it is another scene
+};
+
+/// Adds a file's meshes, materials, base-colour textures and lights to `scene`, in world space and metres, as they are
+/// at a time.
 ///
 /// Done: node trees by matrix or translation, rotation, scale; triangle lists, strips and fans; sparse and quantised
 /// accessors; KHR_lights_punctual with candela, lux read 1:1 as W/sr, W/m^2 (`range` is ignored: light does not end);
 /// emission with KHR_materials_emissive_strength, nit read 1:1 as W/(m^2 sr); base colour with one PNG or JPEG texture
-/// and KHR_texture_transform; metallic and roughness. Textures of emission, metalness and roughness count by their
-/// mean. Not done, and said in scene.warnings: skins, morphs, animations, transparency, normal and occlusion maps,
-/// vertex colours, points and lines, orthographic cameras, optional extensions. A required extension that is not
-/// supported is a Fault.
+/// and KHR_texture_transform; metallic and roughness; animations of nodes (poses_at()). Textures of emission, metalness
+/// and roughness count by their mean. Not done, and said in scene.warnings: skins, morphs, transparency, normal and
+/// occlusion maps, vertex colours, points and lines, orthographic cameras, optional extensions. A required extension
+/// that is not supported is a Fault.
 ///
-/// Everything is first parsed in a child process with limits. Files that this one refers to must lie under its folder
-/// unless `allow_path`. Throws Fault; `scene` may then hold part of the file.
-std::optional<GltfCamera> add_gltf(Scene& scene, const std::filesystem::path& file, double meters_per_unit = 1.0,
-                                   bool allow_path = false);
+/// Everything is first parsed in a child process with limits. Throws Fault; `scene` may then hold part of the file.
+GltfContent add_gltf(Scene& scene, const std::filesystem::path& file, const GltfOptions& options = {});
 
 }  // namespace tyndall

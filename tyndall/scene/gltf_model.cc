@@ -307,9 +307,10 @@ const tinygltf::Accessor& checked_accessor(const GltfModel& gltf, int index, con
 
 template <std::size_t N>
 std::vector<std::array<float, N>> read_vectors(const GltfModel& gltf, int index, const std::string& pointer) {
-  static_assert(TINYGLTF_TYPE_VEC2 == 2 && TINYGLTF_TYPE_VEC3 == 3);
-  const tinygltf::Accessor& accessor =
-      checked_accessor(gltf, index, pointer, static_cast<int>(N), N == 2 ? "\"VEC2\"" : "\"VEC3\"");
+  static_assert(TINYGLTF_TYPE_VEC2 == 2 && TINYGLTF_TYPE_VEC3 == 3 && TINYGLTF_TYPE_VEC4 == 4);
+  constexpr int type = N == 1 ? TINYGLTF_TYPE_SCALAR : static_cast<int>(N);
+  constexpr const char* names[] = {"\"SCALAR\"", "\"VEC2\"", "\"VEC3\"", "\"VEC4\""};
+  const tinygltf::Accessor& accessor = checked_accessor(gltf, index, pointer, type, names[N - 1]);
   if (accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) {
     throw gltf.fault("/accessors/" + std::to_string(index) + "/componentType", "5125",
                      "5120, 5121, 5122, 5123 or 5126");
@@ -326,8 +327,10 @@ std::vector<std::array<float, N>> read_vectors(const GltfModel& gltf, int index,
   });
   return values;
 }
+template std::vector<std::array<float, 1>> read_vectors<1>(const GltfModel&, int, const std::string&);
 template std::vector<std::array<float, 2>> read_vectors<2>(const GltfModel&, int, const std::string&);
 template std::vector<std::array<float, 3>> read_vectors<3>(const GltfModel&, int, const std::string&);
+template std::vector<std::array<float, 4>> read_vectors<4>(const GltfModel&, int, const std::string&);
 
 std::vector<std::uint32_t> read_indices(const GltfModel& gltf, int index, const std::string& pointer) {
   const tinygltf::Accessor& accessor = checked_accessor(gltf, index, pointer, TINYGLTF_TYPE_SCALAR, "\"SCALAR\"");

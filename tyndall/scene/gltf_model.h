@@ -53,8 +53,10 @@ const T& element(const GltfModel& gltf, const std::vector<T>& list, int index, c
 /// elements are in place. Throws Fault, also for values that are not finite. `pointer` is where the accessor is named.
 template <std::size_t N>
 std::vector<std::array<float, N>> read_vectors(const GltfModel& gltf, int accessor, const std::string& pointer);
+extern template std::vector<std::array<float, 1>> read_vectors<1>(const GltfModel&, int, const std::string&);
 extern template std::vector<std::array<float, 2>> read_vectors<2>(const GltfModel&, int, const std::string&);
 extern template std::vector<std::array<float, 3>> read_vectors<3>(const GltfModel&, int, const std::string&);
+extern template std::vector<std::array<float, 4>> read_vectors<4>(const GltfModel&, int, const std::string&);
 
 /// The elements of an accessor of unsigned scalars.
 std::vector<std::uint32_t> read_indices(const GltfModel& gltf, int accessor, const std::string& pointer);

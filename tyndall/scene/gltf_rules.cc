@@ -118,6 +118,17 @@ constexpr Rule rules[] = {
     {"/buffers/*", "uri", text},
     {"/buffers/*", "byteLength", whole, required},
 
+    {"/animations/*", "name", text},
+    {"/animations/*", "channels", objects, required},
+    {"/animations/*", "samplers", objects, required},
+    {"/animations/*/channels/*", "sampler", whole, required},
+    {"/animations/*/channels/*", "target", object, required},
+    {"/animations/*/channels/*/target", "node", index, optional, "/nodes"},
+    {"/animations/*/channels/*/target", "path", text, required},
+    {"/animations/*/samplers/*", "input", index, required, "/accessors"},
+    {"/animations/*/samplers/*", "output", index, required, "/accessors"},
+    {"/animations/*/samplers/*", "interpolation", text},
+
     {"/images/*", "name", text},
     {"/images/*", "uri", text},
     {"/images/*", "mimeType", text},

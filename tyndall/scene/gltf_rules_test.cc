@@ -35,7 +35,7 @@ std::string answer(const json& model, int indent = 1) {
   folder.put("data.bin", std::vector<std::uint8_t>(36));
   try {
     Scene scene;
-    add_gltf(scene, folder.put("x.gltf", model.dump(indent)), 1.0);
+    add_gltf(scene, folder.put("x.gltf", model.dump(indent)));
   } catch (const Fault& fault) {
     return fault.what();
   }

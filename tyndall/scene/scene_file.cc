@@ -130,25 +130,38 @@ void stand_in_for_light(Scene& scene, const SceneMedia& media, const fs::path& f
 }
 
 /// Camera and film, where the scene file does not state them: from the glTF file, else so that all is seen.
-void complete_view(Scene& scene, const std::optional<GltfCamera>& found, bool has_camera, bool has_film) {
+void complete_view(SceneInTime& whole, const std::optional<GltfCamera>& found, bool has_camera, bool has_film) {
+  Scene& scene = whole.scene;
   if (!has_film && !has_camera && found && found->aspect) {
     const double width = std::round(scene.film.height * *found->aspect);
     scene.film.width = static_cast<int>(std::clamp(width, 1.0, 16384.0));
   }
+  whole.framed = !has_camera && !found;
   if (!has_camera) scene.camera = found ? found->camera : framing(scene);
+}
+
+double time_of(const Scene& scene, const SceneOptions& options) {
+  return options.frame ? time_of(scene, *options.frame) : options.time;
+}
+
+void set_media_time(SceneInTime& whole, double time) {
+  whole.scene.time = time;
+  whole.scene.medium = medium_at(whole.media, time);
 }
 
 SceneInTime scene_of_gltf(const fs::path& file, const SceneOptions& options) {
   SceneInTime out;
   Scene& scene = out.scene;
-  const auto camera = add_gltf(scene, file, 1.0, options.allow_path);
-  complete_view(scene, camera, false, false);
+  const double time = time_of(scene, options);
+  const GltfContent content = add_gltf(scene, file, {1.0, options.allow_path, time});
+  out.moves = content.moves;
+  complete_view(out, content.camera, false, false);
   if (!options.medium.empty()) {
     const auto [medium, name] = read_named_medium(options.medium.string(), options.allow_path);
     note_remarks(scene, medium, name, "");
     out.media.push_back({medium, name, {}});
   }
-  set_time(out, options.frame ? time_of(scene, *options.frame) : options.time);
+  set_media_time(out, time);
   if (!has_light_inside(scene) && !has_light_outside(scene)) stand_in_for_light(scene, out.media, file);
   note_darkness(scene, file);
   return out;
@@ -190,8 +203,8 @@ class Assembly {
       scene_.camera = metres(*description.camera, root_.at("camera"));
       if (auto objection = objection_to(scene_.camera)) throw root_.at("camera").fault_below(*objection);
     }
-    complete_view(scene_, camera, description.camera.has_value(), description.film.has_value());
-    set_time(whole_, options_.frame ? time_of(scene_, *options_.frame) : options_.time);
+    complete_view(whole_, camera, description.camera.has_value(), description.film.has_value());
+    set_media_time(whole_, time_of(scene_, options_));
     note_darkness(scene_, file_);
     return std::move(whole_);
   }
@@ -256,10 +269,13 @@ class Assembly {
   }
 
   std::optional<GltfCamera> add_geometry(const GeometryReference& reference, const JsonCursor& at) {
-    if (const auto* file = std::get_if<GeometryFile>(&reference)) {
-      return add_gltf(scene_, named(file->file, at.at("file")), file->meters_per_unit, options_.allow_path);
-    }
-    return add_gltf(scene_, named(std::get<GeometryName>(reference).file, at), 1.0, options_.allow_path);
+    const auto* file = std::get_if<GeometryFile>(&reference);
+    const fs::path path =
+        file != nullptr ? named(file->file, at.at("file")) : named(std::get<GeometryName>(reference).file, at);
+    const GltfContent content = add_gltf(
+        scene_, path, {file != nullptr ? file->meters_per_unit : 1.0, options_.allow_path, time_of(scene_, options_)});
+    whole_.moves = whole_.moves || content.moves;
+    return content.camera;
   }
 
   void add_light(const PointLight& light, const JsonCursor&) { scene_.points.push_back(light); }
@@ -308,14 +324,28 @@ void complete_medium(Json& owner, const Json& meters_per_unit) {
 
 }  // namespace
 
-void set_time(SceneInTime& scene, double time) {
-  scene.scene.time = time;
-  scene.scene.medium = medium_at(scene.media, time);
+bool set_time(SceneInTime& scene, double time) {
+  if (!scene.moves) {
+    set_media_time(scene, time);
+    return false;
+  }
+  if (scene.scene.time == time) return false;
+  SceneOptions then = scene.options;
+  then.frame.reset();
+  then.time = time;
+  SceneInTime next = read_scene_in_time(scene.file, then);
+  next.scene.film = scene.scene.film;
+  next.scene.warnings = scene.scene.warnings;
+  if (scene.framed) next.scene.camera = scene.scene.camera;
+  scene = std::move(next);
+  return true;
 }
 
 Scene read_scene(const fs::path& file, const SceneOptions& options) { return read_scene_in_time(file, options).scene; }
 
-SceneInTime read_scene_in_time(const fs::path& file, const SceneOptions& options) {
+namespace {
+
+SceneInTime scene_of_file(const fs::path& file, const SceneOptions& options) {
   if (is_gltf(file)) return scene_of_gltf(file, options);
   refuse_other_kinds(file, FileKind::scene);
   JsonText json = read_json(file, options.allow_path);
@@ -335,6 +365,15 @@ SceneInTime read_scene_in_time(const fs::path& file, const SceneOptions& options
   }
   const JsonCursor root(json);
   return Assembly(root, file, options).run(read_as<SceneDescription>(root));
+}
+
+}  // namespace
+
+SceneInTime read_scene_in_time(const fs::path& file, const SceneOptions& options) {
+  SceneInTime out = scene_of_file(file, options);
+  out.file = file;
+  out.options = options;
+  return out;
 }
 
 }  // namespace tyndall

@@ -20,15 +20,21 @@ struct SceneOptions {
 /// textures are first parsed in a child process with limits, so that a library's crash becomes a Fault too.
 Scene read_scene(const std::filesystem::path& file, const SceneOptions& options = {});
 
-/// A scene, and what makes it one at another time: geometry, lights and camera stay.
+/// A scene, and what makes it one at another time.
 struct SceneInTime {
   Scene scene;
   SceneMedia media;
+  bool moves = false;   // geometry, lights or camera: it has animated nodes
+  bool framed = false;  // nobody states a camera: it sees all that is there at the time of reading
+  std::filesystem::path file;
+  SceneOptions options;
 };
 SceneInTime read_scene_in_time(const std::filesystem::path& file, const SceneOptions& options = {});
 /// Time [s] of a picture of an animation.
 inline double time_of(const Scene& scene, int frame) { return frame / scene.fps; }
-/// Throws Fault where a medium is none then.
-void set_time(SceneInTime& scene, double time);
+/// Makes it the scene of another time. What moves is read anew from the files; film, a camera that nobody states and
+/// warnings stay. Throws Fault where a medium is none then, or a file is no longer what it was. True where geometry,
+/// lights or camera may be others than before.
+bool set_time(SceneInTime& scene, double time);
 
 }  // namespace tyndall
