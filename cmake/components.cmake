@@ -1,6 +1,6 @@
 # What Tyndall uses of other people's work, and the targets that folders may LINK:
 #   embree  tinygltf::tinygltf  OpenEXR::OpenEXR  PNG::PNG  stb::stb  nlohmann_json::nlohmann_json  CLI11::CLI11
-#   xsimd  cairo::cairo  Threads::Threads        and for tests  GTest::gmock  rapidcheck  egl::gles
+#   xsimd  openvdb::openvdb  cairo::cairo  Threads::Threads        and for tests  GTest::gmock  rapidcheck  egl::gles
 #   python::jsonschema (defines TYNDALL_PYTHON)  webassembly (TYNDALL_WASM_CLANG, TYNDALL_NODE)
 #
 # TYNDALL_WITH_<PART> is AUTO (used when found), ON (an error when not found; TYNDALL_REQUIRE_ALL=ON makes every AUTO
@@ -78,6 +78,12 @@ if(TARGET xsimd)
 endif()
 tyndall_import(stb::stb stb/stb_image.h)
 tyndall_import(tinygltf::tinygltf tiny_gltf.h LIBRARIES tinygltf)
+# Debian's OpenVDB needs Boost's headers, which its package does not bring; its own FindOpenVDB needs more of Boost.
+find_path(TYNDALL_BOOST_INCLUDE boost/numeric/conversion/conversion_traits.hpp)
+mark_as_advanced(TYNDALL_BOOST_INCLUDE)
+if(TYNDALL_BOOST_INCLUDE)
+  tyndall_import(openvdb::openvdb openvdb/openvdb.h LIBRARIES openvdb tbb Imath)
+endif()
 # cairo paints plots; the letters are DejaVu Sans, which the program takes in, so that plots do not depend on fonts.
 find_package(Freetype QUIET)
 find_file(TYNDALL_FONT DejaVuSans.ttf PATHS /usr/share/fonts PATH_SUFFIXES truetype/dejavu dejavu dejavu-sans-fonts TTF)
@@ -102,6 +108,7 @@ tyndall_component(JSON nlohmann-json3-dev "Medium and scene files (nlohmann-json
 tyndall_component(CLI11 libcli11-dev "Command line (CLI11)" TARGETS CLI11::CLI11)
 tyndall_component(XSIMD libxsimd-dev "SIMD kernels (xsimd)" TARGETS xsimd)
 tyndall_component(MPI libopenmpi-dev "Pictures by several processes (MPI)" TARGETS mpi::mpi)
+tyndall_component(OPENVDB "libopenvdb-dev or libboost-dev" "Grids of voxels (OpenVDB)" TARGETS openvdb::openvdb)
 tyndall_component(CAIRO "libcairo2-dev or fonts-dejavu-core" "Plots as PNG (cairo)" TARGETS cairo::cairo)
 
 if(TYNDALL_BUILD_TESTS)

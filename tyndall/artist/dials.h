@@ -6,6 +6,7 @@
 #include "tyndall/color/spectrum.h"
 #include "tyndall/geometry/vector.h"
 #include "tyndall/number/described.h"
+#include "tyndall/number/grid_file.h"
 #include "tyndall/number/number_file.h"
 
 namespace tyndall {
@@ -38,7 +39,8 @@ void for_each_number(T& value, const FieldFacts& facts, const std::string& path,
       for_each_number(value.*field.member, facts_of(field), path + '/' + std::string(field.name), visit);
     });
   } else {
-    static_assert(OneOf<U> || std::is_integral_v<U> || std::is_same_v<U, std::string> || std::is_same_v<U, NumberFile>,
+    static_assert(OneOf<U> || std::is_integral_v<U> || std::is_same_v<U, std::string> || std::is_same_v<U, NumberFile> ||
+                      std::is_same_v<U, GridFile>,
                   "a type without description");
   }
 }
@@ -142,7 +144,7 @@ void set_between(T& out, const T& a, const T& b, double t) {
     for_each_field<T>([&](const auto& field) { set_between(out.*field.member, a.*field.member, b.*field.member, t); });
   } else {
     static_assert(Whole<T> || OneOf<T> || std::is_integral_v<T> || std::is_same_v<T, std::string> ||
-                      std::is_same_v<T, NumberFile>,
+                      std::is_same_v<T, NumberFile> || std::is_same_v<T, GridFile>,
                   "a type without description");
   }
 }

@@ -35,6 +35,9 @@ struct ProfileWords {
   std::string operator()(const NoiseProfile& n) const {
     return "noise of " + length_text(n.scale) + ", \u00B1 " + std::to_string(std::lround(100.0 * n.contrast)) + " %";
   }
+  std::string operator()(const GridProfile& g) const {
+    return "grid " + printable(g.grid_name.empty() ? g.file.name : g.grid_name);
+  }
 };
 
 std::string profile_text(const std::vector<Profile>& profiles) {

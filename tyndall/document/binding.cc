@@ -1,5 +1,6 @@
 #include "tyndall/document/binding.h"
 
+#include "tyndall/document/grid_reader.h"
 #include "tyndall/document/number_rows.h"
 #include "tyndall/document/reference.h"
 
@@ -40,28 +41,57 @@ int read_integer(const JsonCursor& at, const FieldFacts& facts) {
   return static_cast<int>(x);
 }
 
-NumberFile read_number_file(const JsonCursor& at, const FieldFacts& facts) {
-  if (!at.value().is_string()) throw at.wrong_type(expected_value<NumberFile>(facts));
+namespace {
+
+/// The file whose name stands here.
+std::filesystem::path file_named(const JsonCursor& at, const std::string& instead) {
   const auto& name = at.value().get_ref<const std::string&>();
   if (!at.references()) {
-    throw at.fault("the file name " + in_quotes(name, 100) + ", in a text that stands in no folder",
-                   "the numbers themselves");
+    throw at.fault("the file name " + in_quotes(name, 100) + ", in a text that stands in no folder", instead);
   }
   const ReferenceRule& rule = *at.references();
-  std::filesystem::path path;
   try {
-    path = referenced_file(rule.naming, name, rule.allow_path, "");
+    return referenced_file(rule.naming, name, rule.allow_path, "");
   } catch (const Fault& nameless) {
     throw at.fault(nameless.found, nameless.expected);  // finding a place is work, of which a text may ask a lot
   }
-  auto& rows = rule.numbers->files[path.string()];
+}
+
+}  // namespace
+
+NumberFile read_number_file(const JsonCursor& at, const FieldFacts& facts) {
+  if (!at.value().is_string()) throw at.wrong_type(expected_value<NumberFile>(facts));
+  const std::filesystem::path path = file_named(at, "the numbers themselves");
+  NamedNumbers& named = *at.references()->numbers;
+  auto& rows = named.files[path.string()];
   if (!rows) rows = std::make_shared<const NumberRows>(read_number_rows(path));
-  rule.numbers->count += rows->values.size();
-  if (rule.numbers->count > most_named_numbers) {
+  named.count += rows->values.size();
+  if (named.count > most_named_numbers) {
     throw at.fault("one file of numbers too many",
                    "at most " + std::to_string(most_named_numbers) + " numbers from files, counted each time");
   }
-  return {name, path.string(), rows};
+  return {at.value().get<std::string>(), path.string(), rows};
+}
+
+GridFile read_grid_file(const JsonCursor& at, const FieldFacts& facts) {
+  if (!at.value().is_string()) throw at.wrong_type(expected_value<GridFile>(facts));
+  const std::filesystem::path path = file_named(at, "a medium or scene in a file");
+  return {at.value().get<std::string>(), path.string(), nullptr, 0};
+}
+
+void load_grid(const JsonCursor& at, GridFile& file, const std::string& grid_name) {
+  NamedNumbers& named = *at.at("file").references()->numbers;
+  GridFile& known = named.grids[file.path + '\0' + grid_name];
+  if (!known.grid) {
+    known = read_grid(file.path, grid_name);
+    named.grid_bytes += bytes_of(*known.grid);
+    if (named.grid_bytes > most_grid_bytes) {
+      throw at.at("file").fault("one grid too many",
+                                "grids of at most " + std::to_string(most_grid_bytes >> 20) + " MB in one file");
+    }
+  }
+  file.grid = known.grid;
+  file.content = known.content;
 }
 
 std::size_t read_word(const JsonCursor& at, const std::vector<std::string_view>& words) {

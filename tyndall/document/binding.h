@@ -8,7 +8,7 @@
 //   const auto in_si = in_metres(mine, meters_per_unit);      // artist/dials.h: scales what has a Scaling
 //
 // Members may be: double, int, bool, std::string, a one-of, Spectrum (a number means grey), Vector ([x,y,z]),
-// std::array<double, N>, NumberFile (read when it is named), std::optional, std::vector, OneOrMore, a described struct,
+// std::array<double, N>, NumberFile and GridFile (read when it is named), std::optional, std::vector, OneOrMore, a described struct,
 // or a choice (std::variant). Values are kept as written: nothing is scaled while reading. Every error is a Fault with
 // file, line and pointer: wrong types, numbers out of range, missing and unknown keys (with the nearest spelling), and
 // what objection_to() objects to.
@@ -22,6 +22,7 @@
 #include "tyndall/geometry/vector.h"
 #include "tyndall/number/demand.h"
 #include "tyndall/number/described.h"
+#include "tyndall/number/grid_file.h"
 #include "tyndall/number/number_file.h"
 
 namespace tyndall {
@@ -35,6 +36,10 @@ double read_number(const JsonCursor& at, const FieldFacts& facts);
 int read_integer(const JsonCursor& at, const FieldFacts& facts);
 /// The file of numbers that is named here.
 NumberFile read_number_file(const JsonCursor& at, const FieldFacts& facts);
+/// The file that is named here, its grid unread.
+GridFile read_grid_file(const JsonCursor& at, const FieldFacts& facts);
+/// Reads a grid of a file into it; "" is the only one. `at` is the object that names both.
+void load_grid(const JsonCursor& at, GridFile& file, const std::string& grid_name);
 /// The index of the text here among words.
 std::size_t read_word(const JsonCursor& at, const std::vector<std::string_view>& words);
 /// A Fault where this is not an object, or has a key that is neither among `keys` nor the tag. `resolved` is a key that
@@ -64,7 +69,7 @@ std::string expected_value(const FieldFacts& facts) {
     return "true or false" + about;
   } else if constexpr (std::is_same_v<T, std::string>) {
     return "a text" + about;
-  } else if constexpr (std::is_same_v<T, NumberFile>) {
+  } else if constexpr (std::is_same_v<T, NumberFile> || std::is_same_v<T, GridFile>) {
     return "the name of a file" + about;
   } else if constexpr (OneOf<T>) {
     constexpr auto words = words_of(T{});
@@ -124,6 +129,7 @@ void read_object(const JsonCursor& at, T& out, std::string_view tag = "") {
       throw at.fault("no key \"" + std::string(field.name) + '"', expected_value<Member>(facts));
     }
   });
+  if constexpr (requires { load_grid(at, out.file, out.grid_name); }) load_grid(at, out.file, out.grid_name);
   if constexpr (requires { objection_to(out); }) {
     if (const std::optional<Objection> objection = objection_to(out)) throw at.fault_below(*objection);
   }
@@ -245,6 +251,8 @@ void read_value(const JsonCursor& at, const FieldFacts& facts, T& out) {
     out = at.value().template get_ref<const std::string&>();
   } else if constexpr (std::is_same_v<T, NumberFile>) {
     out = read_number_file(at, facts);
+  } else if constexpr (std::is_same_v<T, GridFile>) {
+    out = read_grid_file(at, facts);
   } else if constexpr (OneOf<T>) {
     constexpr auto words = words_of(T{});
     out = static_cast<T>(read_word(at, {words.begin(), words.end()}));

@@ -12,6 +12,7 @@
 
 #include "tyndall/document/fault.h"
 #include "tyndall/number/described.h"
+#include "tyndall/number/grid_file.h"
 #include "tyndall/number/number_file.h"
 
 namespace tyndall {
@@ -22,10 +23,12 @@ inline constexpr std::size_t deepest_json = 64;
 inline constexpr std::size_t largest_json = std::size_t{16} << 20;  // bytes
 
 /// The files of numbers that one text names: each is read once; and how many numbers they stand for, counted each time
-/// that one is named, which is work each time.
+/// that one is named, which is work each time. Grids by path, a zero byte and their name, and the bytes they take.
 struct NamedNumbers {
   std::map<std::string, std::shared_ptr<const NumberRows>> files;
   std::size_t count = 0;
+  std::map<std::string, GridFile> grids;
+  std::uint64_t grid_bytes = 0;
 };
 inline constexpr std::size_t most_named_numbers = 8000000;
 

@@ -96,6 +96,34 @@ void move_references(Law<double>& law, const std::filesystem::path& naming) {
   }
 }
 
+/// Makes the names of grids good in the file `naming`. Where a grid does not lie below its folder the name stays, and
+/// is refused when it is looked for.
+void move_references(Profiles& profiles, const std::filesystem::path& naming) {
+  for (Profile& profile : profiles.all) {
+    auto* const grid = std::get_if<GridProfile>(&profile);
+    if (grid == nullptr || grid->file.path.empty()) continue;
+    std::error_code error;
+    const auto folder = std::filesystem::canonical(naming.has_parent_path() ? naming.parent_path() : ".", error);
+    grid->file.name = std::filesystem::path(grid->file.path).lexically_relative(folder).generic_string();
+  }
+}
+
+/// The same wherever profiles are among dials.
+template <class T>
+void move_profiles(T& value, const std::filesystem::path& naming) {
+  if constexpr (std::is_same_v<T, Profiles>) {
+    move_references(value, naming);
+  } else if constexpr (OptionalMember<T>) {
+    if (value) move_profiles(*value, naming);
+  } else if constexpr (ListMember<T>) {
+    for (auto& element : value) move_profiles(element, naming);
+  } else if constexpr (Choice<T>) {
+    std::visit([&](auto& chosen) { move_profiles(chosen, naming); }, value);
+  } else if constexpr (Described<T>) {
+    for_each_field<T>([&](const auto& field) { move_profiles(value.*field.member, naming); });
+  }
+}
+
 }  // namespace
 
 MediumFile medium_file_at(const JsonCursor& at) {
@@ -173,6 +201,7 @@ std::string medium_to_json(const MediumFile& file) { return pretty(written(file)
 void write_medium_file(const std::filesystem::path& file, const MediumFile& medium) {
   MediumFile moved = medium;
   for (StatedSpecies& species : moved.species) move_references(species.phase, file);
+  move_profiles(moved, file);
   const std::string text = medium_to_json(moved);
   JsonText json = parse_json(text, file.string());
   json.references = ReferenceRule{file};

@@ -8,6 +8,7 @@
 #include "tyndall/color/spectrum.h"
 #include "tyndall/geometry/vector.h"
 #include "tyndall/number/described.h"
+#include "tyndall/number/grid_file.h"
 #include "tyndall/number/number_file.h"
 
 namespace tyndall {
@@ -46,7 +47,7 @@ template <class T>
 OrderedJson written(const T& value) {
   if constexpr (std::is_same_v<T, double>) {
     return written_number(value);
-  } else if constexpr (std::is_same_v<T, NumberFile>) {
+  } else if constexpr (std::is_same_v<T, NumberFile> || std::is_same_v<T, GridFile>) {
     return value.name;
   } else if constexpr (OneOf<T>) {
     return std::string(words_of(value)[static_cast<std::size_t>(value)]);

@@ -15,7 +15,7 @@
 
 #include "tyndall/document/fault.h"
 #include "tyndall/document/whole_file.h"
-#include "tyndall/image/rehearsal.h"
+#include "tyndall/document/rehearsal.h"
 
 namespace tyndall {
 namespace {

@@ -10,7 +10,7 @@
 #include "tyndall/document/whole_file.h"
 #include "tyndall/image/exr.h"
 #include "tyndall/image/radiance_picture.h"
-#include "tyndall/image/rehearsal.h"
+#include "tyndall/document/rehearsal.h"
 
 namespace tyndall {
 namespace {

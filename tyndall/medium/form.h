@@ -1,11 +1,12 @@
 #pragma once
-// The part of a species' density that is neither an exponential nor the bounds of a shape: tents, feathers, noise; and
-// its pieces along a ray, on each of which it is a polynomial.
+// The part of a species' density that is neither an exponential nor the bounds of a shape: tents, feathers, noise,
+// grids; and its pieces along a ray, on each of which it is a polynomial.
 //
 //   tent            degree 1      breaks at its centre
 //   feathered box   3 per axis    breaks where the ray passes the planes that lie `feather` inside the faces
 //   feathered ball  6             breaks at the sphere of radius - feather
 //   noise           3 per axis    breaks at the planes of the finest lattice that is followed
+//   grid            3             breaks at the planes of the voxels, in bricks of zeros at their planes only
 //
 // Noise is followed only so far, that a ray through a million cells takes bounded time: each octave for the first
 // `followed_cells` of its lattice planes that the ray may pass after entering the species, and all of them no further
@@ -55,8 +56,11 @@ struct Form {
   std::vector<BoxProfile> boxes;
   std::vector<SphereProfile> spheres;
   std::vector<PlacedNoise> noises;
+  std::vector<PlacedGrid> grids;
 
-  bool empty() const { return tents.empty() && boxes.empty() && spheres.empty() && noises.empty(); }
+  bool empty() const {
+    return tents.empty() && boxes.empty() && spheres.empty() && noises.empty() && grids.empty();
+  }
 
   /// The least break after t; infinity if there is none. Breaks of noise advance by what a position can resolve at
   /// least.
@@ -102,7 +106,17 @@ struct Form {
         offer(std::max(there, after));
       }
     }
+    for (const PlacedGrid& placed : grids) offer(next_break(placed, along.ray, t));
     return next;
+  }
+
+  /// Whether it is 0 all between two neighbouring breaks, judged in their middle: the bricks of a grid that hold
+  /// nothing.
+  bool vanishes(const FormRay& along, double middle) const {
+    for (const PlacedGrid& placed : grids) {
+      if (is_clear(*placed.grid, BrickGrid::cell_of(placed.voxels(along.ray.at(middle))))) return true;
+    }
+    return false;
   }
 
   /// Degree in t of the form between two neighbouring breaks, judged in their middle; 0: it is 1 there.
@@ -123,7 +137,7 @@ struct Form {
       if (placed.followed(along.metres_at(middle)) == 0) continue;
       for (int axis = 0; axis < 3; ++axis) sum += d[axis] != 0.0 ? 3 : 0;
     }
-    return sum;
+    return sum + 3 * static_cast<int>(grids.size());
   }
 
   /// Multiplies value[i] by the form at t[i] for i < count, all between two neighbouring breaks around `middle`.
@@ -143,10 +157,55 @@ struct Form {
       }
     }
     for (const PlacedNoise& placed : noises) multiply(placed, along, middle, t, value, count);
+    for (const PlacedGrid& placed : grids) {
+      const Vector origin = placed.voxels(along.ray.origin), way = placed.voxels_along(along.ray.direction);
+      const BrickGrid::Index cell = BrickGrid::cell_of(origin + way * middle);
+      const BrickGrid::Corners corners = placed.grid->corners(cell);
+      for (int i = 0; i < count; ++i) {
+        value[i] *= placed.scale * BrickGrid::between(corners, cell, origin + way * t[i]);
+      }
+    }
   }
 
  private:
   static constexpr int most_points = 16;
+
+  static bool is_clear(const BrickGrid& grid, const BrickGrid::Index& cell) {
+    const BrickGrid::Index brick{cell[0] >> 3, cell[1] >> 3, cell[2] >> 3};
+    return !grid.has_brick(brick) || !(grid.greatest[grid.number_of_brick(brick)] > 0.0F);
+  }
+
+  /// The least break of a grid after t, but further than what a position can resolve; infinity behind all voxels.
+  static double next_break(const PlacedGrid& placed, const Ray& ray, double t) {
+    const BrickGrid& grid = *placed.grid;
+    const Vector origin = placed.voxels(ray.origin), way = placed.voxels_along(ray.direction);
+    const double speed = std::max({std::fabs(way.x), std::fabs(way.y), std::fabs(way.z)});
+    const double far = std::max({std::fabs(origin.x), std::fabs(origin.y), std::fabs(origin.z)}) / speed;
+    if (!std::isfinite(far)) return infinity;
+    const auto real = [](const BrickGrid::Index& i) {
+      return Vector{static_cast<double>(i[0]), static_cast<double>(i[1]), static_cast<double>(i[2])};
+    };
+    const Interval within = inside(Box{real(grid.low), real(grid.high)}, {origin, way});
+    if (within.empty() || t >= within.end) return infinity;
+    if (t < within.begin) return within.begin;
+    const double after = t + 4e-16 * (t + far);
+    // The nearest plane of cells of a certain edge that lies ahead of a point on the ray.
+    const auto ahead = [&](double from, double edge) {
+      double next = within.end;
+      for (int axis = 0; axis < 3; ++axis) {
+        if (way[axis] == 0.0) continue;
+        const double at = (origin[axis] + way[axis] * from) / edge;
+        double plane = way[axis] > 0.0 ? std::floor(at) + 1.0 : std::ceil(at) - 1.0;
+        double there = (plane * edge - origin[axis]) / way[axis];
+        if (!(there > from)) there = ((way[axis] > 0.0 ? plane + 1.0 : plane - 1.0) * edge - origin[axis]) / way[axis];
+        next = std::min(next, there);
+      }
+      return std::max(next, after);
+    };
+    const double next = ahead(t, 1.0), middle = 0.5 * (t + next);
+    if (!is_clear(grid, BrickGrid::cell_of(origin + way * middle))) return next;
+    return std::max(next, ahead(middle, static_cast<double>(BrickGrid::edge)));
+  }
 
   static void multiply(const PlacedNoise& placed, const FormRay& along, double middle, const double* t, double* value,
                        int count) {

@@ -89,6 +89,7 @@ class LoweredFrame {
     s.form.boxes.clear();
     s.form.spheres.clear();
     s.form.noises.clear();
+    s.form.grids.clear();
     if (!tyndall::place(s, slot.profiles, time_)) s.scattering = s.absorption = s.extinction = {};
   }
 

@@ -31,7 +31,8 @@ struct LoweredSpecies {
   }
   /// Whether it changes along y only: a slab can be made of it.
   bool is_layered() const {
-    return boxes.empty() && spheres.empty() && form.boxes.empty() && form.spheres.empty() && form.noises.empty();
+    return boxes.empty() && spheres.empty() && form.boxes.empty() && form.spheres.empty() && form.noises.empty() &&
+           form.grids.empty();
   }
 };
 
@@ -71,6 +72,14 @@ inline bool place(LoweredSpecies& species, const std::vector<Profile>& profiles,
     void operator()(const NoiseProfile& n) const {
       if (n.contrast > 0.0) {
         s.form.noises.push_back({{n.scale, n.octaves, n.contrast, n.seed}, n.wind * time});
+      }
+    }
+    void operator()(const GridProfile& g) const {
+      if (std::optional<PlacedGrid> grid = placed(g)) {
+        s.boxes.push_back(grid->bounds);
+        s.form.grids.push_back(std::move(*grid));
+      } else {
+        s.heights = {0.0, 0.0};  // nothing is left
       }
     }
   };

@@ -8,9 +8,11 @@
 #include <tuple>
 #include <variant>
 
+#include "tyndall/geometry/brick_grid.h"
 #include "tyndall/geometry/shape.h"
 #include "tyndall/medium/noise.h"
 #include "tyndall/number/described.h"
+#include "tyndall/number/grid_file.h"
 
 namespace tyndall {
 
@@ -127,9 +129,33 @@ struct NoiseProfile {
   }
 };
 
+/// Density from a grid of voxels, trilinear between them, 0 outside. The grid's own transform says where its voxels
+/// stand; its space is put into the world by a size and a position. Where scale times the grid's value is 1, the density
+/// is as stated. A profile without a grid is 0 everywhere.
+struct GridProfile {
+  static constexpr std::string_view name = "grid";
+  static constexpr std::string_view text = "The voxels of an OpenVDB file: clouds and smoke from other programs.";
+  GridFile file;
+  std::string grid_name;
+  double scale = 1.0, size = 1.0;
+  Vector position;
+  bool operator==(const GridProfile&) const = default;
+  static constexpr auto fields() {
+    return std::tuple{
+        Field{"file", &GridProfile::file, any_number, "", "OpenVDB file (.vdb) with the grid.", Scaling::none, true},
+        Field{"name", &GridProfile::grid_name, any_number, "",
+              "Name of the grid in the file; may be left out where there is only one."},
+        Field{"scale", &GridProfile::scale, not_negative, "1", "What the grid's values are multiplied by."},
+        Field{"size", &GridProfile::size, positive, "m", "Length of one unit of the grid's own space.",
+              Scaling::length},
+        Field{"position", &GridProfile::position, any_number, "m", "Where the origin of the grid's own space is put.",
+              Scaling::length}};
+  }
+};
+
 /// The closed list of profiles.
 using Profile = std::variant<ConstantProfile, ExponentialProfile, LayerProfile, TentProfile, BoxProfile, SphereProfile,
-                             NoiseProfile>;
+                             NoiseProfile, GridProfile>;
 
 /// What a density is multiplied by: one profile, or several of which the product is taken. One that is 0 somewhere
 /// makes the product 0 there.
@@ -165,6 +191,41 @@ inline std::optional<Objection> objection_to(const SphereProfile& sphere) {
       "feather",
       "a feather of " + short_number(sphere.feather) + " in a sphere of radius " + short_number(sphere.radius),
       "at most the radius"};
+}
+
+/// A grid in the world: what takes a point to voxels, and what its numbers are multiplied by.
+struct PlacedGrid {
+  std::shared_ptr<const BrickGrid> grid;
+  double scale = 1.0;
+  Vector start, row[3];  // voxels at p: start + (row[0] . p, row[1] . p, row[2] . p)
+  Box bounds;            // [m], around all that is not 0
+
+  Vector voxels(const Vector& p) const { return start + voxels_along(p); }
+  Vector voxels_along(const Vector& way) const { return {dot(row[0], way), dot(row[1], way), dot(row[2], way)}; }
+  double at(const Vector& p) const { return scale * grid->at(voxels(p)); }
+};
+
+/// Puts a grid into the world; nothing where there is nothing in it, or its voxels have no volume.
+inline std::optional<PlacedGrid> placed(const GridProfile& profile) {
+  const BrickGrid* const grid = profile.file.grid.get();
+  if (grid == nullptr || grid->nothing() || !(profile.scale > 0.0)) return std::nullopt;
+  const Vector origin = profile.position + grid->origin * profile.size;
+  const Vector step[3]{grid->step[0] * profile.size, grid->step[1] * profile.size, grid->step[2] * profile.size};
+  const double volume = dot(step[0], cross(step[1], step[2]));
+  if (!(std::fabs(volume) > 0.0) || !std::isfinite(1.0 / volume)) return std::nullopt;
+  PlacedGrid out{profile.file.grid, profile.scale, {}, {}, {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}}};
+  for (int a = 0; a < 3; ++a) out.row[a] = cross(step[(a + 1) % 3], step[(a + 2) % 3]) / volume;
+  out.start = -out.voxels_along(origin);
+  for (int i = 0; i < 8; ++i) {
+    Vector p = origin;
+    for (int a = 0; a < 3; ++a) {
+      const auto k = static_cast<std::size_t>(a);
+      p += step[a] * static_cast<double>((i >> a & 1) != 0 ? grid->high[k] : grid->low[k]);
+    }
+    out.bounds.low = {std::min(out.bounds.low.x, p.x), std::min(out.bounds.low.y, p.y), std::min(out.bounds.low.z, p.z)};
+    out.bounds.high = {std::max(out.bounds.high.x, p.x), std::max(out.bounds.high.y, p.y), std::max(out.bounds.high.z, p.z)};
+  }
+  return out;
 }
 
 /// 0 for x <= 0, 1 for x >= 1, in between 3 x^2 - 2 x^3: level at both ends.
@@ -208,14 +269,19 @@ inline double factor(const Profile& profile, const Vector& p, double time = 0.0)
     double operator()(const NoiseProfile& n) const {
       return noise_factor({n.scale, n.octaves, n.contrast, n.seed}, p - n.wind * time);
     }
+    double operator()(const GridProfile& g) const {
+      const std::optional<PlacedGrid> grid = placed(g);
+      return grid ? grid->at(p) : 0.0;
+    }
   };
   return std::visit(At{p, time}, profile);
 }
 
-/// The factor with noise at its mean of 1: what a stated visibility refers to, and what tells about a place rather than
-/// about the pattern that happens to be there.
+/// The factor with noise at its mean of 1, and a grid where it is 1: what a stated visibility refers to, and what tells
+/// about a place rather than about the pattern that happens to be there.
 inline double mean_factor(const Profile& profile, const Vector& p) {
-  return std::holds_alternative<NoiseProfile>(profile) ? 1.0 : factor(profile, p);
+  const bool pattern = std::holds_alternative<NoiseProfile>(profile) || std::holds_alternative<GridProfile>(profile);
+  return pattern ? 1.0 : factor(profile, p);
 }
 
 inline double mean_factor(const Profiles& profiles, const Vector& p) {

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "tyndall/medium/free_flight.h"
+#include "tyndall/medium/grid_cases_test.h"
 #include "tyndall/sampling/random_stream.h"
 
 namespace tyndall {
@@ -27,7 +28,7 @@ double halved(const F& f, double a, double b, double whole, double allowed, int 
 
 /// int of a species' factor along a ray. Where it begins and ends is found by bisection (all shapes here are convex),
 /// so that no sliver beside a jump is missed; NaN when it is too short for the scan that looks for it.
-double integral(const Species& species, const Ray& ray, double begin, double end, int panels = 24) {
+double integral(const Species& species, const Ray& ray, double begin, double end, int panels = 400) {
   const auto f = [&](double t) { return factor(species, ray.at(t)); };
   constexpr int looks = 4000;
   const auto look = [&](int i) { return begin + (end - begin) * i / looks; };
@@ -106,6 +107,10 @@ std::vector<Case> cases() {
             NoiseProfile{2, 1, 1, 9, {}}, soft}},
           {"eight noises, exponential",
            {ExponentialProfile{0.4, 0.0}, noise, plain, noise, plain, noise, plain, soft_ball}},
+          {"grid", {tests::ragged_grid(false)}},
+          {"grid askew", {tests::ragged_grid(true)}},
+          {"exponential grid in a soft ball", {exponential, tests::ragged_grid(true), soft_ball}},
+          {"grid with noise in a layer", {tests::ragged_grid(false), noise, layer}},
           {"two boxes", {box, BoxProfile{{-2, -0.5, -2}, {0.5, 2, 2}, 0.3}}}};
 }
 

@@ -172,6 +172,7 @@ inline void add_formed_stretches(std::span<const LoweredSpecies> together, const
         end = std::min({end, fine.end, std::max(begin + step, std::nextafter(begin, infinity))});
       }
     }
+    if (end < infinity && s.form.vanishes(along, 0.5 * (begin + end))) continue;
     const int degree = end < infinity ? s.form.degree(along, 0.5 * (begin + end)) : 0;
     // Many forms in one place: 16 points do for degree 31, or 19 with an exponential, and in parts for any product.
     const int points = degree > 0 ? degree / 2 + 1 + (rate != 0.0 ? 6 : 0) : 0, parts = std::max(1, (points + 15) / 16);

@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "tyndall/number/described.h"
+#include "tyndall/number/grid_file.h"
 #include "tyndall/number/number_file.h"
 
 namespace tyndall {
@@ -37,7 +38,8 @@ class Digest {
   std::uint64_t state_ = 0;
 };
 
-/// Adds every field of a value of the kinds that descriptions know (described.h); of a file of numbers, the numbers.
+/// Adds every field of a value of the kinds that descriptions know (described.h); of a file of numbers, the numbers; of a
+/// file of voxels, their digest.
 template <class T>
 void add_value(Digest& digest, const T& value) {
   if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) {
@@ -47,6 +49,8 @@ void add_value(Digest& digest, const T& value) {
   } else if constexpr (std::is_same_v<T, NumberFile>) {
     digest.add(value.rows ? static_cast<double>(value.rows->columns) : 0.0);
     if (value.rows) add_value(digest, value.rows->values);
+  } else if constexpr (std::is_same_v<T, GridFile>) {
+    digest.add(value.grid ? value.content : 0);
   } else if constexpr (OptionalMember<T>) {
     digest.add(value ? 1.0 : 0.0);
     if (value) add_value(digest, *value);

@@ -1,6 +1,7 @@
 // Both integrators and the slab in media of every profile.
 #include <gtest/gtest.h>
 
+#include "tyndall/medium/grid_cases_test.h"
 #include "tyndall/render/path.h"
 #include "tyndall/render/single.h"
 #include "tyndall/render/slab.h"
@@ -26,6 +27,11 @@ std::vector<Case> cases() {
       {"soft ball", {SphereProfile{{0.2, 0.1, -2.5}, 1.3, 0.7}}},
       {"noise in a box", {noise, box}},
       {"exponential layer in a soft box", {ExponentialProfile{0.7, 0.0}, LayerProfile{-0.5, 0.6}, soft}},
+      {"grid", {[] {
+         GridProfile grid = tests::ragged_grid(true);
+         grid.position = {0.1, 0.0, -2.0};
+         return grid;
+       }()}},
       {"layer in a ball", {LayerProfile{-0.5, 0.6}, SphereProfile{{0.2, 0.1, -2.5}, 1.3}}},
       {"noise in a tent in a soft ball", {noise, TentProfile{0.1, 0.8}, SphereProfile{{0.2, 0.1, -2.5}, 1.3, 0.7}}}};
 }

@@ -1,4 +1,4 @@
-#include "tyndall/image/rehearsal.h"
+#include "tyndall/document/rehearsal.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "tyndall/image/rehearsal.h"
+#include "tyndall/document/rehearsal.h"
 
 #include <fcntl.h>
 #include <sys/resource.h>
@@ -12,6 +12,7 @@
 #include <cstring>
 #include <new>
 #include <string_view>
+#include <vector>
 
 #include "tyndall/document/fault.h"
 
@@ -29,7 +30,8 @@
 namespace tyndall {
 namespace {
 
-// The child's report: one letter, then for a Fault its three texts, each ended by a zero byte.
+// The child's report: one letter; then, where all is well, the bytes that it made, and for a Fault its three texts, each
+// ended by a zero byte.
 constexpr char well = 'w', faulty = 'f', out_of_memory = 'm', thrown = 't';
 
 void send(int pipe, std::string_view text) {
@@ -62,7 +64,7 @@ std::uint64_t address_space() {
   return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 
-[[noreturn]] void perform(int pipe, const std::function<void()>& act, const RehearsalLimits& limits) {
+[[noreturn]] void perform(int pipe, const std::function<std::string()>& act, const RehearsalLimits& limits) {
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, limits.seconds);
   if (!TYNDALL_SANITIZED) {
@@ -73,8 +75,9 @@ std::uint64_t address_space() {
     }
   }
   try {
-    act();
+    const std::string made = act();
     send(pipe, std::string_view(&well, 1));
+    send(pipe, made);
   } catch (const Fault& fault) {
     send(pipe, std::string_view(&faulty, 1));
     send_text(pipe, fault.where);
@@ -91,8 +94,8 @@ std::uint64_t address_space() {
 
 }  // namespace
 
-void rehearse(const std::string& where, const std::string& expected, const std::function<void()>& act,
-              const RehearsalLimits& limits) {
+std::string performed(const std::string& where, const std::string& expected, const std::function<std::string()>& act,
+                      const RehearsalLimits& limits) {
   const auto impossible = [&where] {
     throw Fault{where, std::string("no child process to try it in (") + std::strerror(errno) + ")",
                 "a machine with processes and memory to spare"};
@@ -113,7 +116,7 @@ void rehearse(const std::string& where, const std::string& expected, const std::
   }
   ::close(ends[1]);
   std::string report;
-  std::array<char, 4096> piece{};
+  std::vector<char> piece(std::size_t{1} << 16);
   for (;;) {
     const ssize_t n = ::read(ends[0], piece.data(), piece.size());
     if (n < 0 && errno == EINTR) continue;
@@ -125,7 +128,11 @@ void rehearse(const std::string& where, const std::string& expected, const std::
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
 
-  if (report == std::string_view(&well, 1)) return;
+  const bool ended = WIFEXITED(status) && WEXITSTATUS(status) == 0;  // else bytes may be missing
+  if (ended && !report.empty() && report[0] == well) {
+    report.erase(0, 1);
+    return report;
+  }
   if (!report.empty() && report[0] == faulty) {
     std::array<std::string, 3> text;
     std::size_t at = 1;
@@ -147,6 +154,15 @@ void rehearse(const std::string& where, const std::string& expected, const std::
     found = "a file that crashes its reader (exit code " + std::to_string(WEXITSTATUS(status)) + ")";
   }
   throw Fault{where, found, expected};
+}
+
+void rehearse(const std::string& where, const std::string& expected, const std::function<void()>& act,
+              const RehearsalLimits& limits) {
+  const auto nothing_made = [&act] {
+    act();
+    return std::string();
+  };
+  performed(where, expected, nothing_made, limits);
 }
 
 }  // namespace tyndall
