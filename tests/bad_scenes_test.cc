@@ -64,6 +64,8 @@ const tests::BadFile bad_scenes[] = {
     {"unknown_key", 3, "/geometri", "\"geometri\"", "did you mean \"geometry\"?"},
     {"unknown_light", 5, "/lights/1/type", "\"pont\"", "did you mean \"point\"?"},
     {"volume_box_inside_out", 6, "/volumes/0/profile/max", "not above min", "min < max"},
+    {"volume_grid_absent", 5, "/volumes/0/profile/file", "does not exist", "an existing file"},
+    {"volume_grid_is_no_vdb", 0, "", "OpenVDB cannot read", "an OpenVDB file"},
     {"volume_radius_negative", 5, "/volumes/0/profile/radius", "number -1", "above 0 [m]"},
     {"volume_without_medium", 4, "/volumes/0", "no key \"medium\"", "a text, or an object"},
     {"volume_without_profile", 4, "/volumes/0", "no key \"profile\"", "whose \"law\" is"},

@@ -56,6 +56,8 @@ BEYOND_A_SCHEMA = {
     "table_too_few_values.medium.json",  # one list against the other
     "unit_too_small.medium.json",
     "volume_box_inside_out.scene.json",
+    "volume_grid_absent.scene.json",
+    "volume_grid_is_no_vdb.scene.json",
 }
 # What objection_to() says where demands_of() tells schemas the same.
 ALSO_IN_SCHEMAS = ("without coefficients", "density beside", "albedo without", "no parts", "both file and radiance",

@@ -39,8 +39,8 @@ void for_each_number(T& value, const FieldFacts& facts, const std::string& path,
       for_each_number(value.*field.member, facts_of(field), path + '/' + std::string(field.name), visit);
     });
   } else {
-    static_assert(OneOf<U> || std::is_integral_v<U> || std::is_same_v<U, std::string> || std::is_same_v<U, NumberFile> ||
-                      std::is_same_v<U, GridFile>,
+    static_assert(OneOf<U> || std::is_integral_v<U> || std::is_same_v<U, std::string> ||
+                      std::is_same_v<U, NumberFile> || std::is_same_v<U, GridFile>,
                   "a type without description");
   }
 }

@@ -14,6 +14,11 @@ using nlohmann::json;
 
 class ProfileProbe : public tests::ProgramTest {
  protected:
+  void SetUp() override {
+    tests::ProgramTest::SetUp();
+    std::filesystem::copy(std::filesystem::path(TYNDALL_SOURCE_DIR) / "examples/media/cumulus.vdb",
+                          folder_ / "cumulus.vdb");
+  }
   tests::Outcome run(const json& scene, const std::string& arguments) const {
     write("x.scene.json", scene.dump());
     return tyndall("probe x.scene.json " + arguments + " --json");
@@ -23,14 +28,19 @@ class ProfileProbe : public tests::ProgramTest {
 /// Every profile in metres, u metres to the unit of the file. 1000 and 0.01 leave the last bits to rounding.
 std::vector<json> profiles(double u) {
   const auto at = [u](double x, double y, double z) { return json{x / u, y / u, z / u}; };
-  return {
-      {{"law", "constant"}},
-      {{"law", "exponential"}, {"scale_height", 2.0 / u}, {"base", 0.5 / u}},
-      {{"law", "layer"}, {"bottom", -0.5 / u}, {"top", 0.75 / u}},
-      {{"law", "tent"}, {"centre", 0.25 / u}, {"half_width", 1.5 / u}},
-      {{"law", "box"}, {"min", at(-2, -1, -5)}, {"max", at(2, 1, -1)}, {"feather", 1.0 / u}},
-      {{"law", "sphere"}, {"center", at(0.5, 0, -3)}, {"radius", 1.5 / u}, {"feather", 0.5 / u}},
-      {{"law", "noise"}, {"scale", 2.0 / u}, {"octaves", 2}, {"contrast", 0.9}, {"seed", 3}, {"wind", at(1, 0, 0)}}};
+  return {{{"law", "constant"}},
+          {{"law", "exponential"}, {"scale_height", 2.0 / u}, {"base", 0.5 / u}},
+          {{"law", "layer"}, {"bottom", -0.5 / u}, {"top", 0.75 / u}},
+          {{"law", "tent"}, {"centre", 0.25 / u}, {"half_width", 1.5 / u}},
+          {{"law", "box"}, {"min", at(-2, -1, -5)}, {"max", at(2, 1, -1)}, {"feather", 1.0 / u}},
+          {{"law", "sphere"}, {"center", at(0.5, 0, -3)}, {"radius", 1.5 / u}, {"feather", 0.5 / u}},
+          {{"law", "noise"}, {"scale", 2.0 / u}, {"octaves", 2}, {"contrast", 0.9}, {"seed", 3}, {"wind", at(1, 0, 0)}},
+          {{"law", "grid"},
+           {"file", "cumulus.vdb"},
+           {"name", "density"},
+           {"scale", 2},
+           {"size", 2.0 / u},
+           {"position", at(0, -1, -3)}}};
 }
 
 std::vector<json> lights(double u) {
@@ -94,7 +104,13 @@ TEST_F(ProfileProbe, RefusesWhatHasNoMeaning) {
     EXPECT_EQ(outcome.code, 2) << profile;
     EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
   };
-  says({{"law", "grid"}, {"file", "x.vdb"}}, "tent");
+  says({{"law", "grd"}}, "tent");
+  says({{"law", "grid"}}, "no key \"file\"");
+  says({{"law", "grid"}, {"file", "x.vdb"}}, "an existing file");
+  says({{"law", "grid"}, {"file", "x.scene.json"}}, "OpenVDB");
+  says({{"law", "grid"}, {"file", "cumulus.vdb"}, {"name", "dense"}}, "expected density");
+  says({{"law", "grid"}, {"file", "cumulus.vdb"}, {"scale", -1}}, "at least 0");
+  says({{"law", "grid"}, {"file", "cumulus.vdb"}, {"size", 0}}, "above 0");
   says({{"law", "box"}, {"min", {0, 0, 0}}, {"max", {1, 2, 3}}, {"feather", 0.6}}, "half the shortest edge");
   says({{"law", "sphere"}, {"center", {0, 0, 0}}, {"radius", 1}, {"feather", 2}}, "at most the radius");
   says({{"law", "layer"}, {"bottom", 2}, {"top", 1}}, "bottom < top");

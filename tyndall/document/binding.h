@@ -8,10 +8,10 @@
 //   const auto in_si = in_metres(mine, meters_per_unit);      // artist/dials.h: scales what has a Scaling
 //
 // Members may be: double, int, bool, std::string, a one-of, Spectrum (a number means grey), Vector ([x,y,z]),
-// std::array<double, N>, NumberFile and GridFile (read when it is named), std::optional, std::vector, OneOrMore, a described struct,
-// or a choice (std::variant). Values are kept as written: nothing is scaled while reading. Every error is a Fault with
-// file, line and pointer: wrong types, numbers out of range, missing and unknown keys (with the nearest spelling), and
-// what objection_to() objects to.
+// std::array<double, N>, NumberFile and GridFile (read when it is named), std::optional, std::vector, OneOrMore, a
+// described struct, or a choice (std::variant). Values are kept as written: nothing is scaled while reading. Every
+// error is a Fault with file, line and pointer: wrong types, numbers out of range, missing and unknown keys (with the
+// nearest spelling), and what objection_to() objects to.
 #include <algorithm>
 #include <cmath>
 #include <limits>

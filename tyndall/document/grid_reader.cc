@@ -80,12 +80,14 @@ BrickGrid grid_of_bytes(std::string_view bytes, const std::string& where) {
 
 GridFile read_grid(const std::filesystem::path& file, const std::string& name) {
   const std::string where = place(file.string());
+  // What voxels unpack to, and room for 512^3 of them made of tiles: a small file must not ask for much.
   std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(file, error);
+  const std::uintmax_t size = std::filesystem::file_size(file, error), megabytes = error ? 0 : size >> 20;
   RehearsalLimits limits;
-  limits.seconds = 10 + static_cast<unsigned>(error ? 0 : std::min<std::uintmax_t>(size >> 20, 300));
-  const std::string bytes =
-      performed(where, "an OpenVDB file", [&] { return grid_bytes(openvdb_grid(file, name)); }, limits);
+  limits.seconds = 4 + static_cast<unsigned>(std::min<std::uintmax_t>(megabytes, 300));
+  limits.memory = std::min<std::uint64_t>(limits.memory, (std::uint64_t{3} << 29) + (std::uint64_t{megabytes} << 26));
+  const std::string bytes = performed(
+      where, "an OpenVDB file", [&] { return grid_bytes(openvdb_grid(file, name)); }, limits);
   return file_of(grid_of_bytes(bytes, where));
 }
 

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <openvdb/openvdb.h>
+#include <openvdb/tools/Interpolation.h>
 #include <openvdb/tools/LevelSetSphere.h>
 
 #include <cmath>
@@ -103,6 +104,37 @@ TEST_F(GridReader, ReadsFloatHalfAndDoubleWhereTheTransformPutsThem) {
   expect_ball(read_grid(write({half}), ""));
 }
 
+/// OpenVDB's own trilinear sampler says the same everywhere, in a space that is turned, sheared and stretched, put
+/// somewhere else by size and position.
+TEST_F(GridReader, IsWhatOpenvdbsOwnSamplerSays) {
+  const auto grid = ball<openvdb::FloatGrid>();
+  openvdb::Mat4d bent(0.5, 0.1, 0.0, 0.0, -0.2, 0.7, 0.1, 0.0, 0.0, 0.3, -0.4, 0.0, 3.0, -2.0, 1.0, 1.0);
+  grid->setTransform(openvdb::math::Transform::createLinearTransform(bent));
+  std::mt19937_64 random(8);
+  for (int i = 0; i < 2000; ++i) {
+    const auto coordinate = [&] { return static_cast<int>(random() % 24) - 12; };
+    grid->tree().setValue({3 + coordinate(), -5 + coordinate(), 20 + coordinate()},
+                          static_cast<float>(random() % 1000) * 0.0025F);
+  }
+  GridProfile profile;
+  profile.file = read_grid(write({grid}), "density");
+  profile.scale = 0.5;
+  profile.size = 4.0;
+  profile.position = {100.0, 0.0, -7.0};
+  const openvdb::tools::GridSampler<openvdb::FloatGrid, openvdb::tools::BoxSampler> sampler(*grid);
+  int met = 0;
+  for (int i = 0; i < 100000; ++i) {
+    const auto coordinate = [&] { return 30.0 * (static_cast<double>(random() >> 11) * 0x1p-53 - 0.5); };
+    const openvdb::Vec3d there =
+        grid->indexToWorld(openvdb::Vec3d(3 + coordinate(), -5 + coordinate(), 20 + coordinate()));
+    const double wanted = 0.5 * static_cast<double>(sampler.wsSample(there));
+    const Vector p = profile.position + Vector{there.x(), there.y(), there.z()} * profile.size;
+    ASSERT_NEAR(factor(profile, p), wanted, 1e-6 + wanted / 1000.0);  // kept with 11 bits
+    met += wanted > 0.0 ? 1 : 0;
+  }
+  EXPECT_GT(met, 10000);
+}
+
 TEST_F(GridReader, FindsGridsByName) {
   const auto other = openvdb::FloatGrid::create(0);
   other->setName("heat");
@@ -149,6 +181,15 @@ TEST_F(GridReader, RefusesTooManyVoxelsBeforeItMakesThem) {
   EXPECT_THAT(fault_of(write({far})), HasSubstr("too large"));
 }
 
+TEST_F(GridReader, TheLargestGridOfTilesIsRead) {
+  const auto large = openvdb::FloatGrid::create(0);
+  large->fill({{0, 0, 0}, {511, 511, 511}}, 1.0F);
+  const GridFile file = read_grid(write({large}), "");
+  EXPECT_EQ(file.grid->blocks(), 64U * 64U * 64U);
+  EXPECT_EQ(file.grid->at({300.5, 200.25, 100.0}), 1.0);
+  EXPECT_LT(bytes_of(*file.grid), std::uint64_t{280} << 20);
+}
+
 TEST_F(GridReader, AnEmptyGridIsNothing) {
   const GridFile file = read_grid(write({openvdb::FloatGrid::create(0)}), "");
   EXPECT_TRUE(file.grid->nothing());
@@ -181,7 +222,8 @@ TEST_F(GridReader, MediaNameGridsAndShareThem) {
 TEST_F(GridReader, WrittenMediaFindTheirGridAgain) {
   write({ball<openvdb::FloatGrid>()});
   const fs::path file = write_text(
-      "m.medium.json", medium_start + std::string(R"({"name": "a", "density": 1, "profile": {"law": "grid", "file": "cloud.vdb"}}]})"));
+      "m.medium.json",
+      medium_start + std::string(R"({"name": "a", "density": 1, "profile": {"law": "grid", "file": "cloud.vdb"}}]})"));
   const MediumFile medium = read_medium_file(file);
   write_medium_file(folder / "again.medium.json", medium);
   EXPECT_EQ(compile(read_medium_file(folder / "again.medium.json"), "").species[0].profiles,
@@ -191,7 +233,8 @@ TEST_F(GridReader, WrittenMediaFindTheirGridAgain) {
 TEST_F(GridReader, FaultsOfMediaSayWhereTheFileWasNamed) {
   write({ball<openvdb::FloatGrid>()});
   const auto fault = [&](const std::string& profile) {
-    const fs::path file = write_text("m.medium.json", std::string(medium_start) + R"({"name": "a", "density": 1, "profile": )" + profile + "}]}");
+    const fs::path file = write_text(
+        "m.medium.json", std::string(medium_start) + R"({"name": "a", "density": 1, "profile": )" + profile + "}]}");
     return fault_of([&] { read_medium_file(file); });
   };
   EXPECT_THAT(fault(R"({"law": "grid"})"), HasSubstr("no key \"file\""));
@@ -200,7 +243,9 @@ TEST_F(GridReader, FaultsOfMediaSayWhereTheFileWasNamed) {
   EXPECT_THAT(fault(R"({"law": "grid", "file": "cloud.vdb", "name": "fog"})"), HasSubstr("density"));
   EXPECT_THAT(fault(R"({"law": "grid", "file": "cloud.vdb", "scale": -1})"), HasSubstr("at least 0"));
   EXPECT_THAT(fault_of([&] {
-                medium_from_json(std::string(medium_start) + R"({"density": 1, "profile": {"law": "grid", "file": "cloud.vdb"}}]})", "m");
+                medium_from_json(
+                    std::string(medium_start) + R"({"density": 1, "profile": {"law": "grid", "file": "cloud.vdb"}}]})",
+                    "m");
               }),
               HasSubstr("no folder"));
 }

@@ -113,7 +113,8 @@ std::string chosen(openvdb::io::File& file, const std::string& name, const GridR
   if (names.empty()) throw reader.fault("no grids", "one");
   if (name.empty()) {
     if (names.size() == 1) return names.front();
-    throw reader.fault("several grids, of which none is named", "a \"name\": " + one_of("", {names.begin(), names.end()}));
+    throw reader.fault("several grids, of which none is named",
+                       "a \"name\": " + one_of("", {names.begin(), names.end()}));
   }
   if (std::ranges::find(names, name) != names.end()) return name;
   throw reader.fault("no grid " + in_quotes(name), one_of(name, {names.begin(), names.end()}));

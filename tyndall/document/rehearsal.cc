@@ -30,8 +30,8 @@
 namespace tyndall {
 namespace {
 
-// The child's report: one letter; then, where all is well, the bytes that it made, and for a Fault its three texts, each
-// ended by a zero byte.
+// The child's report: one letter; then, where all is well, the bytes that it made, and for a Fault its three texts,
+// each ended by a zero byte.
 constexpr char well = 'w', faulty = 'f', out_of_memory = 'm', thrown = 't';
 
 void send(int pipe, std::string_view text) {

@@ -13,9 +13,9 @@ struct RehearsalLimits {
   unsigned seconds = 60;                          // of processor time
 };
 
-/// Runs `act` in a child process. Returns the bytes that it returned there. Throws the Fault that `act` threw there, or a Fault
-/// {where, what happened to the child, expected}. `act` must not depend on other threads; nothing it changes in memory
-/// is seen here. The memory limit is left out under AddressSanitizer, which reserves terabytes.
+/// Runs `act` in a child process. Returns the bytes that it returned there. Throws the Fault that `act` threw there, or
+/// a Fault {where, what happened to the child, expected}. `act` must not depend on other threads; nothing it changes in
+/// memory is seen here. The memory limit is left out under AddressSanitizer, which reserves terabytes.
 std::string performed(const std::string& where, const std::string& expected, const std::function<std::string()>& act,
                       const RehearsalLimits& limits = {});
 

@@ -84,7 +84,8 @@ class SchemaBook {
       return integer_schema(facts);
     } else if constexpr (std::is_same_v<T, bool>) {
       return {{"type", "boolean"}};
-    } else if constexpr (std::is_same_v<T, std::string> || std::is_same_v<T, NumberFile> || std::is_same_v<T, GridFile>) {
+    } else if constexpr (std::is_same_v<T, std::string> || std::is_same_v<T, NumberFile> ||
+                         std::is_same_v<T, GridFile>) {
       return {{"type", "string"}};
     } else if constexpr (OneOf<T>) {
       constexpr auto words = words_of(T{});

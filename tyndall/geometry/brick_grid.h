@@ -131,7 +131,8 @@ struct BrickGrid {
   /// Bounds of one brick, in which its neighbours above have their first voxels.
   void find_bounds(const Index& brick) {
     const std::size_t n = number_of_brick(brick);
-    std::array<std::uint16_t, 2> range{std::numeric_limits<std::uint16_t>::max(), 0};  // halves are in their bits' order
+    std::array<std::uint16_t, 2> range{std::numeric_limits<std::uint16_t>::max(),
+                                       0};  // halves are in their bits' order
     for (int i = 0; i < 8; ++i) {
       const Index from{brick[0] + (i & 1), brick[1] + (i >> 1 & 1), brick[2] + (i >> 2)};
       const std::uint32_t b = has_brick(from) ? block[number_of_brick(from)] : empty;

@@ -69,7 +69,8 @@ TEST(BrickGrid, HoldsWhatWasPutIntoItToElevenBits) {
   for (int k = made.low[2] - 9; k <= made.high[2] + 9; ++k) {
     for (int j = made.low[1] - 9; j <= made.high[1] + 9; ++j) {
       for (int i = made.low[0] - 9; i <= made.high[0] + 9; ++i) {
-        const Vector p = Vector{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)} - made.grid.origin;
+        const Vector p =
+            Vector{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)} - made.grid.origin;
         const double x = made.get(i, j, k);
         ASSERT_NEAR(made.grid.at(p), x, x / 2048.0 + 1e-8);
       }
@@ -102,7 +103,8 @@ TEST(BrickGrid, BoundsOfABrickHoldEverywhereInItAndAreTight) {
   Made made(random);
   const BrickGrid& grid = made.grid;
   for (int n = 0; n < 300000; ++n) {
-    Vector p{8.0 * grid.bricks[0] * random.next(), 8.0 * grid.bricks[1] * random.next(), 8.0 * grid.bricks[2] * random.next()};
+    Vector p{8.0 * grid.bricks[0] * random.next(), 8.0 * grid.bricks[1] * random.next(),
+             8.0 * grid.bricks[2] * random.next()};
     if (n % 3 == 0) p = {std::floor(p.x), std::floor(p.y), std::floor(p.z)};  // where extremes are
     const auto check = [&](const BrickGrid::Index& brick, double x) {
       if (!grid.has_brick(brick)) return;
@@ -138,7 +140,8 @@ TEST(BrickGrid, ThereIsNothingOutsideItsLowAndHigh) {
   const BrickGrid& grid = made.grid;
   bool touched = false;
   for (int n = 0; n < 100000; ++n) {
-    const Vector p{-9.0 + random.next() * (8.0 * grid.bricks[0] + 18.0), -9.0 + random.next() * (8.0 * grid.bricks[1] + 18.0),
+    const Vector p{-9.0 + random.next() * (8.0 * grid.bricks[0] + 18.0),
+                   -9.0 + random.next() * (8.0 * grid.bricks[1] + 18.0),
                    -9.0 + random.next() * (8.0 * grid.bricks[2] + 18.0)};
     bool in = true;
     for (int a = 0; a < 3; ++a) {

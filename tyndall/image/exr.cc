@@ -14,8 +14,8 @@
 #include <set>
 
 #include "tyndall/document/fault.h"
-#include "tyndall/document/whole_file.h"
 #include "tyndall/document/rehearsal.h"
+#include "tyndall/document/whole_file.h"
 
 namespace tyndall {
 namespace {

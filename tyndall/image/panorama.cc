@@ -7,10 +7,10 @@
 
 #include "tyndall/document/fault.h"
 #include "tyndall/document/file_kind.h"
+#include "tyndall/document/rehearsal.h"
 #include "tyndall/document/whole_file.h"
 #include "tyndall/image/exr.h"
 #include "tyndall/image/radiance_picture.h"
-#include "tyndall/document/rehearsal.h"
 
 namespace tyndall {
 namespace {

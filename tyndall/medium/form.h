@@ -58,9 +58,7 @@ struct Form {
   std::vector<PlacedNoise> noises;
   std::vector<PlacedGrid> grids;
 
-  bool empty() const {
-    return tents.empty() && boxes.empty() && spheres.empty() && noises.empty() && grids.empty();
-  }
+  bool empty() const { return tents.empty() && boxes.empty() && spheres.empty() && noises.empty() && grids.empty(); }
 
   /// The least break after t; infinity if there is none. Breaks of noise advance by what a position can resolve at
   /// least.

@@ -34,8 +34,8 @@ double depth(const Medium& medium, const Ray& ray, double end = 6.0) {
 }
 
 TEST(Grid, EvenVoxelsAreAHomogeneousBox) {
-  const GridProfile even =
-      grid_of({0, 0, 0}, {20, 20, 20}, {-1, -1, -1}, {0.1, 0, 0}, {0, 0.1, 0}, {0, 0, 0.1}, [](int, int, int) { return 0.75; });
+  const GridProfile even = grid_of({0, 0, 0}, {20, 20, 20}, {-1, -1, -1}, {0.1, 0, 0}, {0, 0.1, 0}, {0, 0, 0.1},
+                                   [](int, int, int) { return 0.75; });
   const BoxProfile box{{-0.97, -0.9, -0.8}, {0.93, 0.9, 0.6}};
   RandomStream random(1, 0, 0);
   for (int i = 0; i < 200; ++i) {

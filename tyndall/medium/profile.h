@@ -130,8 +130,8 @@ struct NoiseProfile {
 };
 
 /// Density from a grid of voxels, trilinear between them, 0 outside. The grid's own transform says where its voxels
-/// stand; its space is put into the world by a size and a position. Where scale times the grid's value is 1, the density
-/// is as stated. A profile without a grid is 0 everywhere.
+/// stand; its space is put into the world by a size and a position. Where scale times the grid's value is 1, the
+/// density is as stated. A profile without a grid is 0 everywhere.
 struct GridProfile {
   static constexpr std::string_view name = "grid";
   static constexpr std::string_view text = "The voxels of an OpenVDB file: clouds and smoke from other programs.";
@@ -213,7 +213,8 @@ inline std::optional<PlacedGrid> placed(const GridProfile& profile) {
   const Vector step[3]{grid->step[0] * profile.size, grid->step[1] * profile.size, grid->step[2] * profile.size};
   const double volume = dot(step[0], cross(step[1], step[2]));
   if (!(std::fabs(volume) > 0.0) || !std::isfinite(1.0 / volume)) return std::nullopt;
-  PlacedGrid out{profile.file.grid, profile.scale, {}, {}, {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}}};
+  PlacedGrid out{
+      profile.file.grid, profile.scale, {}, {}, {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}}};
   for (int a = 0; a < 3; ++a) out.row[a] = cross(step[(a + 1) % 3], step[(a + 2) % 3]) / volume;
   out.start = -out.voxels_along(origin);
   for (int i = 0; i < 8; ++i) {
@@ -222,8 +223,10 @@ inline std::optional<PlacedGrid> placed(const GridProfile& profile) {
       const auto k = static_cast<std::size_t>(a);
       p += step[a] * static_cast<double>((i >> a & 1) != 0 ? grid->high[k] : grid->low[k]);
     }
-    out.bounds.low = {std::min(out.bounds.low.x, p.x), std::min(out.bounds.low.y, p.y), std::min(out.bounds.low.z, p.z)};
-    out.bounds.high = {std::max(out.bounds.high.x, p.x), std::max(out.bounds.high.y, p.y), std::max(out.bounds.high.z, p.z)};
+    out.bounds.low = {std::min(out.bounds.low.x, p.x), std::min(out.bounds.low.y, p.y),
+                      std::min(out.bounds.low.z, p.z)};
+    out.bounds.high = {std::max(out.bounds.high.x, p.x), std::max(out.bounds.high.y, p.y),
+                       std::max(out.bounds.high.z, p.z)};
   }
   return out;
 }

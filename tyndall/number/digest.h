@@ -38,8 +38,8 @@ class Digest {
   std::uint64_t state_ = 0;
 };
 
-/// Adds every field of a value of the kinds that descriptions know (described.h); of a file of numbers, the numbers; of a
-/// file of voxels, their digest.
+/// Adds every field of a value of the kinds that descriptions know (described.h); of a file of numbers, the numbers; of
+/// a file of voxels, their digest.
 template <class T>
 void add_value(Digest& digest, const T& value) {
   if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) {

@@ -6,9 +6,9 @@
 #include <set>
 
 #include "tyndall/document/file_kind.h"
+#include "tyndall/document/rehearsal.h"
 #include "tyndall/document/spelling.h"
 #include "tyndall/document/whole_file.h"
-#include "tyndall/document/rehearsal.h"
 #include "tyndall/scene/gltf_animation.h"
 #include "tyndall/scene/gltf_material.h"
 #include "tyndall/scene/gltf_model.h"
