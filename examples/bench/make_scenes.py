@@ -59,7 +59,7 @@ def spot():
     document = Document("spot")
     document.node("room", mesh)
     lamp = {"type": "spot", "position": [-4.0, 5.0, -1.5], "direction": [5.5, -4.1, -0.2], "intensity": 400,
-            "inner_angle": 6, "outer_angle": 8}
+            "inner_angle": 7, "outer_angle": 7}
     camera = {"position": [0.4, 2.2, 4.7], "look_at": [0, 2.3, -5], "up": [0, 1, 0], "vertical_fov": 52}
     return document, scene("spot", camera, [lamp], medium=fog(0.05, 0.7))
 

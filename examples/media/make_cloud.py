@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes a cumulus of voxels as an OpenVDB file; examples/media/cumulus.vdb is what it writes by itself.
 
-    make_cloud.py [--voxels N] [-o FILE]     N along the longest edge (default 96); Debian: python3-openvdb, python3-numpy
+    make_cloud.py [--voxels N] [-o FILE]     N along the longest edge (default 128); Debian: python3-openvdb, python3-numpy
 
 The grid "density" goes from 0 to 1, stands on the origin (bottom at y = 0) and is 2 units wide. Spheres of random size, fewer and
 smaller with height, are joined smoothly; lattice noise of five sizes eats into them. Seeded: the same voxels every time.
@@ -58,7 +58,7 @@ def cumulus(voxels):
 def main():
     here = pathlib.Path(__file__).resolve().parent
     parser = argparse.ArgumentParser()
-    parser.add_argument("--voxels", type=int, default=96)
+    parser.add_argument("--voxels", type=int, default=128)
     parser.add_argument("-o", "--output", default=str(here / "cumulus.vdb"))
     arguments = parser.parse_args()
     density, edge = cumulus(arguments.voxels)

@@ -40,7 +40,7 @@ std::vector<json> profiles(double u) {
            {"name", "density"},
            {"scale", 2},
            {"size", 2.0 / u},
-           {"position", at(0, -1, -3)}}};
+           {"position", at(0, -0.25, -3)}}};
 }
 
 std::vector<json> lights(double u) {

@@ -63,21 +63,34 @@ struct BrickGrid {
 
   /// The numbers at the corners of a cell.
   Corners corners(const Index& cell) const {
-    Corners out{};
-    const bool within = (cell[0] & 7) < 7 && (cell[1] & 7) < 7 && (cell[2] & 7) < 7;
-    if (!within) {
-      for (int i = 0; i < 8; ++i) {
-        out[static_cast<std::size_t>(i)] = voxel({cell[0] + (i & 1), cell[1] + (i >> 1 & 1), cell[2] + (i >> 2)});
-      }
-      return out;
+    static constexpr std::array<std::uint16_t, size> zeros{};
+    // Of up to eight bricks, a cell's own and its neighbours above: along an axis the second voxel lies in the next if
+    // the first is its brick's last.
+    std::array<const std::uint16_t*, 8> in{};
+    std::array<std::size_t, 3> at{}, on{};  // in the block: of the first voxel, and from it to the second
+    unsigned across = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const auto local = static_cast<std::size_t>(cell[a] & 7);
+      at[a] = local << (3 * a);
+      on[a] = std::size_t{1} << (3 * a);
+      if (local == 7) across |= 1U << a, on[a] = -at[a];
     }
-    const Index brick{cell[0] >> 3, cell[1] >> 3, cell[2] >> 3};
-    if (!has_brick(brick)) return out;
-    const std::uint32_t b = block[number_of_brick(brick)];
-    if (b == empty) return out;
-    const std::uint16_t* const first = &voxels[b * size + place_in_brick(cell)];
-    constexpr std::array<std::size_t, 8> offset{0, 1, 8, 9, 64, 65, 72, 73};
-    for (std::size_t i = 0; i < 8; ++i) out[i] = unit * static_cast<double>(number_of(first[offset[i]]));
+    for (unsigned i = 0; i < 8; ++i) {
+      if ((i & ~across) != 0) {
+        in[i] = in[i & across];
+        continue;
+      }
+      const Index brick{(cell[0] >> 3) + static_cast<int>(i & 1), (cell[1] >> 3) + static_cast<int>(i >> 1 & 1),
+                        (cell[2] >> 3) + static_cast<int>(i >> 2)};
+      const std::uint32_t b = has_brick(brick) ? block[number_of_brick(brick)] : empty;
+      in[i] = b == empty ? zeros.data() : &voxels[b * size];
+    }
+    const std::size_t first = at[0] + at[1] + at[2];
+    Corners out;
+    for (std::size_t i = 0; i < 8; ++i) {
+      const std::size_t voxel = first + (i & 1) * on[0] + (i >> 1 & 1) * on[1] + (i >> 2) * on[2];
+      out[i] = unit * static_cast<double>(number_of(in[i][voxel]));
+    }
     return out;
   }
 

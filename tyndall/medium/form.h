@@ -60,6 +60,10 @@ struct Form {
 
   bool empty() const { return tents.empty() && boxes.empty() && spheres.empty() && noises.empty() && grids.empty(); }
 
+  bool only_a_grid() const {
+    return grids.size() == 1 && tents.empty() && boxes.empty() && spheres.empty() && noises.empty();
+  }
+
   /// The least break after t; infinity if there is none. Breaks of noise advance by what a position can resolve at
   /// least.
   double next_break(const FormRay& along, double t) const {

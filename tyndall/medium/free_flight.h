@@ -87,10 +87,11 @@ struct Flight {
 /// passing: the weight then has the chance of a collision in it.
 inline Flight sample_flight(const std::vector<Stretch>& stretches, const Spectrum& beta, double end, bool forced,
                             double xi_channel, double xi_depth) {
-  const Spectrum through = transmittance(stretches, end);
+  Spectrum through;
   Spectrum chance = beta / sum(beta);
   double collides = 1.0;
   if (forced) {
+    through = transmittance(stretches, end);
     chance = chance * (Spectrum::grey(1.0) - through);
     collides = sum(chance);
     if (!(collides > 0.0)) return {infinity, {}};
@@ -109,6 +110,7 @@ inline Flight sample_flight(const std::vector<Stretch>& stretches, const Spectru
     return density > 0.0 ? Flight{t, survived / density} : Flight{infinity, {}};
   }
   if (forced) return {infinity, {}};  // rounding put the collision on the very end
+  through = transmittance(stretches, end);
   const double passes = sum(chance * through);
   return {infinity, passes > 0.0 ? through / passes : Spectrum{}};
 }

@@ -10,8 +10,12 @@ namespace tyndall {
 
 /// The stretches of `medium` along a ray within [0, end]: none of its species overlap themselves, those of one place
 /// come together. What they hold is exact but for rounding; media with noise see form.h for what is left out far away.
-inline void stretches_along(const LoweredMedium& medium, const Ray& ray, double end, std::vector<Stretch>& out) {
+/// Whoever needs no more than an optical depth of `enough` in every channel gets the distance up to which the stretches
+/// hold all there is: `end`, or less where the depth there exceeds it.
+inline double stretches_along(const LoweredMedium& medium, const Ray& ray, double end, std::vector<Stretch>& out,
+                              double enough = infinity) {
   out.clear();
+  double reach = end;
   const std::vector<LoweredSpecies>& species = medium.species;
   for (std::size_t first = 0, last; first < species.size(); first = last) {
     const LoweredSpecies& s = species[first];
@@ -23,7 +27,7 @@ inline void stretches_along(const LoweredMedium& medium, const Ray& ray, double 
     if (range.empty()) continue;
     const std::span<const LoweredSpecies> together(&s, last - first);
     if (!s.form.empty()) {
-      add_formed_stretches(together, ray, range, out);
+      reach = std::min(reach, add_formed_stretches(together, ray, range, out, enough));
       continue;
     }
     const double rate = s.decay * ray.direction.y;
@@ -31,6 +35,7 @@ inline void stretches_along(const LoweredMedium& medium, const Ray& ray, double 
     if (!(factor > 0.0 || rate < 0.0)) continue;
     for (const LoweredSpecies& one : together) out.push_back(Stretch(one, range, factor, rate, start));
   }
+  return reach;
 }
 
 /// Optical depth per channel from the ray's origin to t.

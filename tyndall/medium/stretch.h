@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tyndall/light/gauss_legendre.h"
+#include "tyndall/medium/grid_walk.h"
 #include "tyndall/medium/lowered_species.h"
 
 namespace tyndall {
@@ -29,9 +30,12 @@ struct Stretch {
   double factor;  // at range.begin; may underflow to 0 high above an air that the ray descends into. Formed: the mean
   double rate;    // [1/m] along the ray; negative when the ray descends into thicker air
   double log_factor;   // at range.begin, the form aside
-  int points = 0;      // of Gauss-Legendre over the form; 0: there is none
+  int points = 0;      // of Gauss-Legendre over the form; 0: there is none; `cubic_form`: it is the cubic
   double whole = 0.0;  // formed: depth_to(range.end)
-  FormRay along;       // formed: the ray
+  FormRay along;       // of a form that is not a cubic: the ray
+  Cubic cubic;
+
+  static constexpr int cubic_form = -1;
 
   Stretch(const LoweredSpecies& of, const Interval& where, double at_begin, double slope, double log)
       : species(&of), range(where), factor(at_begin), rate(slope), log_factor(log) {}
@@ -46,7 +50,7 @@ struct Stretch {
 
   /// Density factor at t inside the range.
   double factor_at(double t) const {
-    if (points > 0) return formed_at(t);
+    if (points != 0) return formed_at(t);
     return rate == 0.0 ? factor : std::exp(log_factor - rate * (t - range.begin));
   }
 
@@ -57,7 +61,7 @@ struct Stretch {
   double depth_to(double t) const {
     const double s = std::min(t, range.end) - range.begin;
     if (!(s > 0.0)) return 0.0;
-    if (points > 0) return t >= range.end ? whole : formed_depth(range.begin + s);
+    if (points != 0) return t >= range.end ? whole : formed_depth(range.begin + s);
     if (rate == 0.0) return factor * s;
     if (rate > 0.0) return -factor * std::expm1(-rate * s) / rate;
     return std::exp(log_factor - rate * s) * std::expm1(rate * s) / rate;
@@ -65,7 +69,7 @@ struct Stretch {
 
   /// The t at which depth_to(t) = depth >= 0; infinity where the stretch holds less.
   double distance_at(double depth) const {
-    if (points > 0) return formed_distance(depth);
+    if (points != 0) return formed_distance(depth);
     double s;
     if (rate == 0.0) {
       s = depth / factor;
@@ -80,6 +84,14 @@ struct Stretch {
     }
     const double t = range.begin + s;
     return t < range.end ? t : infinity;
+  }
+
+  /// Gives the stretch a form that is a cubic, and no exponential besides.
+  void set_form(const Cubic& of) {
+    cubic = of;
+    points = cubic_form;
+    factor = of.integral_to(1.0);
+    whole = factor * (range.end - range.begin);
   }
 
   /// Gives the stretch a form of so many points.
@@ -99,12 +111,17 @@ struct Stretch {
   double middle() const { return 0.5 * (range.begin + range.end); }
 
   double formed_at(double t) const {
+    if (points == cubic_form) return cubic.at((t - range.begin) / (range.end - range.begin));
     double value = exponential_at(t);
     species->form.multiply(along, middle(), &t, &value, 1);
     return value;
   }
 
   double formed_depth(double end) const {
+    if (points == cubic_form) {
+      const double span = range.end - range.begin;
+      return span * cubic.integral_to((end - range.begin) / span);
+    }
     std::array<double, 16> t{}, value{};
     const QuadraturePoint* rule = gauss_legendre_rule(points);
     const double span = end - range.begin;
@@ -142,9 +159,10 @@ inline constexpr std::size_t most_noisy_stretches = 1u << 17;
 
 /// Appends the stretches of species that share profiles with a form, on the part of the ray where they are. Pieces with
 /// an exponential are no longer than 4 of its lengths, down to e^-45 of its thickest end, where 16 points and a
-/// polynomial of degree 9 leave 1e-12.
-inline void add_formed_stretches(std::span<const LoweredSpecies> together, const Ray& ray, const Interval& range,
-                                 std::vector<Stretch>& out) {
+/// polynomial of degree 9 leave 1e-12. Ends where the least channel's depth exceeds `enough`; returns where that is, or
+/// infinity.
+inline double add_formed_stretches(std::span<const LoweredSpecies> together, const Ray& ray, const Interval& range,
+                                   std::vector<Stretch>& out, double enough = infinity) {
   const LoweredSpecies& s = together.front();
   const double rate = s.decay * ray.direction.y;
   const auto log_at = [&](double t) { return s.log_at_height(ray.origin.y + t * ray.direction.y); };
@@ -160,6 +178,24 @@ inline void add_formed_stretches(std::span<const LoweredSpecies> together, const
     const double underflows = range.begin + std::max(0.0, (-700.0 - log_at(range.begin)) / -rate);
     fine = {std::max(underflows, range.end - 45.0 / -rate), range.end};
     if (!(range.end < infinity)) fine.begin = underflows;
+  }
+  const auto put = [&](Stretch& piece) {
+    for (const LoweredSpecies& one : together) {
+      piece.species = &one;
+      out.push_back(piece);
+    }
+  };
+  if (rate == 0.0 && s.form.only_a_grid()) {
+    const double start = log_at(range.begin), strength = std::exp(start);
+    double depth = 0.0;
+    for (GridWalk walk(s.form.grids[0], ray, range); walk.next();) {
+      Stretch piece(s, walk.range(), 0.0, 0.0, start);
+      piece.set_form(walk.cubic() * strength);
+      depth += piece.whole * least;
+      put(piece);
+      if (depth > enough) return walk.range().end;
+    }
+    return infinity;
   }
   FormRay along{ray, out.size() < most_noisy_stretches ? range.begin : -infinity};
   double depth = 0.0;
@@ -185,16 +221,15 @@ inline void add_formed_stretches(std::span<const LoweredSpecies> together, const
       if (degree > 0) piece.set_form(along, std::min(16, points));
       depth += piece.depth_to(to) * least;
       if (!(piece.factor > 0.0 || rate < 0.0)) continue;
-      for (const LoweredSpecies& one : together) {
-        piece.species = &one;
-        out.push_back(piece);
-      }
+      put(piece);
     }
+    if (depth > enough && end < range.end) return end;
     if (depth > opaque_depth) {
       along.entry = -infinity;
       fine = {infinity, infinity};
     }
   }
+  return infinity;
 }
 
 }  // namespace tyndall

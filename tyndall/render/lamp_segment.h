@@ -162,7 +162,7 @@ class LampSegment {
     const bool inside = t < stretch.range.end;
     const double s = (inside ? t : stretch.range.end) - stretch.range.begin;
     // A form is taken at its mean.
-    if (stretch.rate == 0.0 || stretch.points > 0) return {inside ? stretch.factor : 0.0, stretch.factor * s};
+    if (stretch.rate == 0.0 || stretch.points != 0) return {inside ? stretch.factor : 0.0, stretch.factor * s};
     const double there = quick_exp(stretch.log_factor - stretch.rate * s);
     // Where the difference is all rounding, the mean of both ends is good.
     const double depth = std::fabs(stretch.rate * s) < 0.05 ? 0.5 * (stretch.factor + there) * s

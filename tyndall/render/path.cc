@@ -11,7 +11,9 @@ namespace tyndall {
 
 PathContext::PathContext(const Scene& scene, const Geometry& geometry, int max_depth, double follow_through)
     : prepared_(new Prepared{
-          scene, geometry, lower(scene.medium, scene.time), PathLights(scene), max_depth, follow_through, {}}) {}
+          scene, geometry, lower(scene.medium, scene.time), PathLights(scene), max_depth, follow_through, {}, false}) {
+  prepared_->winding = std::ranges::any_of(prepared_->medium.species, [](const auto& s) { return !s.form.empty(); });
+}
 PathContext::~PathContext() = default;
 
 namespace {
@@ -47,6 +49,7 @@ struct PathTracer::State {
   PathSample out;
   std::vector<Stretch> stretches, shadow;
   ScatterPoint scatter, beside;  // at the collision; at a lamp's sample of the same segment
+  double reach = infinity;       // of follow_air
   LampSegment segment;
   std::vector<SunLesson>* lessons = nullptr;  // where to write what is met of the suns, if anybody learns
   std::uint64_t sun_tries = 0;                // how often it was looked for
@@ -59,17 +62,56 @@ struct PathTracer::State {
     out.light.of(walk.scatterings + scatterings, walk.bounces + bounces) += radiance;
   }
 
-  /// Transmittance of medium and surfaces over a stretch of a ray; zero when a surface is in the way.
-  Spectrum unoccluded(const Ray& ray, double distance) {
-    if (context.geometry.occluded(ray, distance)) return {};
-    return transmittance(context.medium, ray, distance, shadow);
+  /// Transmittance of the medium, unbiased: where a ray takes long to follow, its last few percent are seldom looked
+  /// for, and count for more then.
+  Spectrum through_air(const Ray& ray, double distance, RandomStream& random) {
+    if (!context.winding) return transmittance(context.medium, ray, distance, shadow);
+    constexpr double sure = 2.5;
+    const double enough = sure - std::log1p(-random.next());
+    if (stretches_along(context.medium, ray, distance, shadow, enough) < distance) return {};
+    const Spectrum depth = optical_depth(shadow, distance);
+    const double least = std::min({depth[0], depth[1], depth[2]}), lifted = std::max(0.0, least - sure);
+    return least > enough ? Spectrum{} : map(depth, [&](double x) { return std::exp(lifted - x); });
   }
-  Spectrum unoccluded(const Vector& from, const Vector& to) {
+
+  /// Transmittance of medium and surfaces over a stretch of a ray; zero when a surface is in the way.
+  Spectrum unoccluded(const Ray& ray, double distance, RandomStream& random) {
+    return context.geometry.occluded(ray, distance) ? Spectrum{} : through_air(ray, distance, random);
+  }
+  Spectrum unoccluded(const Vector& from, const Vector& to, RandomStream& random) {
     if (context.geometry.occluded(from, to)) return {};
     const Vector way = to - from;
     const double distance = length(way);
-    if (distance == 0.0) return Spectrum::grey(1.0);
-    return transmittance(context.medium, {from, way / distance}, distance, shadow);
+    return distance == 0.0 ? Spectrum::grey(1.0) : through_air({from, way / distance}, distance, random);
+  }
+
+  /// The same with no choice in it: of the same points always the same.
+  Spectrum exactly_unoccluded(const Vector& from, const Vector& to) {
+    if (context.geometry.occluded(from, to)) return {};
+    const Vector way = to - from;
+    const double distance = length(way);
+    return distance == 0.0 ? Spectrum::grey(1.0)
+                           : transmittance(context.medium, {from, way / distance}, distance, shadow);
+  }
+
+  /// Sets `stretches` to what a ray meets before `end`; where following it takes long, no further than hardly any
+  /// flight goes. Returns whether it is so dense: then a flight need not be forced to collide.
+  bool follow_air(const Ray& ray, double end) {
+    constexpr double hardly_passed = 5.0;
+    const bool worth_it = context.winding && context.lights.lamps.empty();  // lamps look at whole segments
+    reach = stretches_along(context.medium, ray, end, stretches, worth_it ? hardly_passed : infinity);
+    return reach < end;
+  }
+
+  /// A flight in the stretches of follow_air, with its arguments and result; in those of the whole ray if need be.
+  Flight flight_along(const Ray& ray, const Spectrum& beta, double end, bool dense, bool forced, double xi_channel,
+                      double xi_depth) {
+    if (dense) {
+      const Flight flight = sample_flight(stretches, beta, reach, forced, xi_channel, xi_depth);
+      if (flight.t < reach) return flight;
+      stretches_along(context.medium, ray, end, stretches);
+    }
+    return sample_flight(stretches, beta, end, forced, xi_channel, xi_depth);
   }
 
   PathSample trace(const Ray& ray, double distance, RandomStream& random, bool sees_sun) {
@@ -101,10 +143,11 @@ struct PathTracer::State {
     random.begin_branch(2);
     suns_along(walk, end, random);
     random.begin_branch(3);
-    const Flight flight = sample_flight(stretches, walk.beta, end, true, random.next(), random.next());
+    const double xi_depth = random.next(), xi_channel = random.next();
+    const Flight flight = sample_flight(stretches, walk.beta, end, true, xi_channel, xi_depth);
     if (flight.t < end) {
       walk.beta *= flight.weight;
-      if (collide(walk, flight.t, random)) follow(walk, random);
+      if (collide(walk, flight.t, false, random)) follow(walk, random);
     }
     return out;
   }
@@ -114,16 +157,17 @@ struct PathTracer::State {
       random.align(event_dimensions);
       const std::optional<Hit> hit = context.geometry.intersect(walk.ray);
       const double end = hit ? hit->t : infinity;
-      stretches_along(context.medium, walk.ray, end, stretches);
+      const bool dense = follow_air(walk.ray, end);
       if (may_go_on(walk)) {
         lamps_along(walk, end, random);
-        suns_along(walk, end, random);
+        if (!dense) suns_along(walk, end, random);
       }
-      const Flight flight = sample_flight(stretches, walk.beta, end, false, random.next(), random.next());
+      const double xi_depth = random.next(), xi_channel = random.next();
+      const Flight flight = flight_along(walk.ray, walk.beta, end, dense, false, xi_channel, xi_depth);
       walk.beta *= flight.weight;
       if (is_zero(walk.beta)) return;
       if (flight.t < end) {
-        if (!may_go_on(walk) || !collide(walk, flight.t, random)) return;
+        if (!may_go_on(walk) || !collide(walk, flight.t, dense, random)) return;
       } else if (!hit) {
         leave_scene(walk, false);
         return;
@@ -173,7 +217,7 @@ struct PathTracer::State {
                   (1.0 - lamp_shaft_weight(walk.aim, lamp, walk.ray.origin, walk.ray.at(at.t),
                                            walk.direction_density + other));
       }
-      add(walk, walk.beta * airlight(walk.ray, end, at) * weight, 1, 0);
+      add(walk, walk.beta * airlight(walk.ray, end, at, random) * weight, 1, 0);
     }
   }
 
@@ -188,25 +232,29 @@ struct PathTracer::State {
       const Flight flight = sample_flight(stretches, walk.beta, end, true, xi_channel, xi);
       if (!(flight.t < end)) continue;
       beside.set(context.medium, stretches, flight.t);
-      const Vector point = walk.ray.at(flight.t);
-      const Spectrum beta = walk.beta * flight.weight / static_cast<double>(places);
-      for (std::size_t i_sun = 0; i_sun < context.lights.suns.size(); ++i_sun) {
-        const LightSample light = sample_sun(context.lights.suns[i_sun], random.next(), random.next());
-        const Spectrum f = beside.scattered(deflection_between(-light.direction, -walk.ray.direction));
-        if (is_zero(f)) continue;
-        const Spectrum light_there = light.radiance * unoccluded({point, light.direction}, infinity);
-        learn_of_sun(walk, i_sun, point, light.direction, beta * f * light_there);
-        double weight = 1.0;
-        const double beams =
-            walk.sun_tries > 0.0 ? walk.sun_tries * context.beams[i_sun].density(point, -light.direction) : 0.0;
-        if (beams > 0.0) {
-          const double chance = mean(extinction_at(stretches, flight.t) * transmittance(stretches, flight.t));
-          weight -= shaft_weight(beams, walk.ray.origin, point, light.direction, walk.direction_density * chance);
-        }
-        // (With beams there are no lobes.)
-        if (walk.lobe_density > 0.0) weight = balance(walk.direction_density, walk.lobe_density);
-        add(walk, beta * f * light_there * weight, 1, 0);
+      suns_at(walk, flight.t, beside, walk.beta * flight.weight / static_cast<double>(places), random);
+    }
+  }
+
+  /// The suns' light scattered toward the walk at distance t of its segment, with throughput beta.
+  void suns_at(const Walk& walk, double t, const ScatterPoint& there, const Spectrum& beta, RandomStream& random) {
+    const Vector point = walk.ray.at(t);
+    for (std::size_t i = 0; i < context.lights.suns.size(); ++i) {
+      const LightSample light = sample_sun(context.lights.suns[i], random.next(), random.next());
+      const Spectrum f = there.scattered(deflection_between(-light.direction, -walk.ray.direction));
+      if (is_zero(f)) continue;
+      const Spectrum light_there = light.radiance * unoccluded({point, light.direction}, infinity, random);
+      learn_of_sun(walk, i, point, light.direction, beta * f * light_there);
+      double weight = 1.0;
+      const double beams =
+          walk.sun_tries > 0.0 ? walk.sun_tries * context.beams[i].density(point, -light.direction) : 0.0;
+      if (beams > 0.0) {
+        const double chance = mean(extinction_at(stretches, t) * transmittance(stretches, t));
+        weight -= shaft_weight(beams, walk.ray.origin, point, light.direction, walk.direction_density * chance);
       }
+      // (With beams there are no lobes.)
+      if (walk.lobe_density > 0.0) weight = balance(walk.direction_density, walk.lobe_density);
+      add(walk, beta * f * light_there * weight, 1, 0);
     }
   }
 
@@ -237,10 +285,10 @@ struct PathTracer::State {
     if (is_zero(f) || !(own > 0.0)) return;
     const auto hit = context.geometry.intersect(ray);
     const double end = hit ? hit->t : infinity;
-    stretches_along(context.medium, ray, end, stretches);
+    const bool dense = follow_air(ray, end);
     if (stretches.empty()) return;
     const double xi_channel = random.next(), xi_depth = random.next();
-    const Flight flight = sample_flight(stretches, f, end, true, xi_channel, xi_depth);
+    const Flight flight = flight_along(ray, f, end, dense, !dense, xi_channel, xi_depth);
     if (!(flight.t < end)) return;
     const Vector place = ray.at(flight.t);
     beside.set(context.medium, stretches, flight.t);
@@ -249,7 +297,7 @@ struct PathTracer::State {
         f * flight.weight * beside.scattered(deflection_between(-light.direction, -ray.direction));
     const double weight = balance(own, density(ray.direction)) / own;
     if (is_zero(scattered)) return;
-    add(walk, scattered * light.radiance * unoccluded({place, light.direction}, infinity) * weight, 2, 0);
+    add(walk, scattered * light.radiance * unoccluded({place, light.direction}, infinity, random) * weight, 2, 0);
   }
 
   void learn_of_sun(const Walk& walk, std::size_t sun, const Vector& place, const Vector& toward,
@@ -299,7 +347,7 @@ struct PathTracer::State {
           const Spectrum through = transmittance(context.medium, {lit->point, sun.direction}, infinity, shadow);
           const Vector start = context.geometry.leave(lit->point, lit->geometric_normal);
           const double weight = balance(own, density(direction)) / own;
-          add(walk, f * reflected * sun.radiance * through * unoccluded(from, start) * weight, scatterings,
+          add(walk, f * reflected * sun.radiance * through * unoccluded(from, start, random) * weight, scatterings,
               bounces + 1);
         }
       }
@@ -307,7 +355,7 @@ struct PathTracer::State {
           shaft_along(beam, lit ? lit->t : infinity, from, false, 0.5, random.next(), reflect);
       if (!shaft) continue;
       const Spectrum extinction = extinction_at(stretches, shaft->t);
-      const Spectrum clear = unoccluded(from, shaft->place);
+      const Spectrum clear = exactly_unoccluded(from, shaft->place);  // its weight hangs on it
       if (is_zero(clear)) continue;
       const double rays = walk.sun_tries * beams.density(shaft->place, beam.direction);
       const double weight =
@@ -372,7 +420,7 @@ struct PathTracer::State {
   }
 
   /// Light of a lamp scattered back along the ray of `stretches` at a sampled distance, over the sample's density.
-  Spectrum airlight(const Ray& ray, double end, const LampSegment::Sample& at) {
+  Spectrum airlight(const Ray& ray, double end, const LampSegment::Sample& at, RandomStream& random) {
     if (!(at.t > 0.0 && at.t < end) || !(at.density > 0.0)) return {};
     const Lamp& lamp = context.lights.lamps[at.lamp];
     const Vector point = ray.at(at.t), way = point - lamp.position;
@@ -384,7 +432,7 @@ struct PathTracer::State {
     beside.set(context.medium, stretches, at.t);
     const Spectrum scattered = beside.scattered(deflection_between(travel, -ray.direction));
     const Spectrum light = intensity * scattered * transmittance(stretches, at.t) / (squared * at.density);
-    return is_zero(light) ? light : light * unoccluded(point, lamp.position);
+    return is_zero(light) ? light : light * unoccluded(point, lamp.position, random);
   }
 
   void aim(Walk& walk, const Vector& from, const Spectrum& extinction) const {
@@ -419,14 +467,14 @@ struct PathTracer::State {
         const double other = density(around_lamp.direction);
         const double weight = balance(own, other) / own *
                               (1.0 - lamp_shaft_weight(walk.aim, lamps[lamp], from, around_lamp.at(at.t), own + other));
-        add(walk, f * airlight(around_lamp, end, at) * weight, scatterings + 1, bounces);
+        add(walk, f * airlight(around_lamp, end, at, random) * weight, scatterings + 1, bounces);
       }
     }
     const double xi_beam[4] = {random.next(), random.next(), random.next(), random.next()};
     const Ray beam{lamps[lamp].position, walk.aim.beam(lamps[lamp], xi[5], xi_beam[0], xi_beam[1])};
     const Spectrum intensity = lamps[lamp].intensity_toward(beam.direction);
     const auto lit = context.geometry.intersect(beam);
-    if (lit) add_lit_surface(walk, from, scatterings, bounces, lamp, beam, *lit, intensity, reflect, density);
+    if (lit) add_lit_surface(walk, from, scatterings, bounces, lamp, beam, *lit, intensity, random, reflect, density);
     if (lamps[lamp].spot == nullptr) return;
     const std::optional<Shaft> shaft =
         shaft_along(beam, lit ? lit->t : infinity, from, true, xi_beam[2], xi_beam[3], reflect);
@@ -436,7 +484,8 @@ struct PathTracer::State {
     const double weight = lamp_shaft_weight(walk.aim, lamps[lamp], from, shaft->place, walks);
     const double own = tries * walk.aim.chance(lamps[lamp]) * walk.aim.beam_density(lamps[lamp], beam.direction);
     add(walk,
-        shaft->scattered * intensity * through * unoccluded(from, shaft->place) * (weight / (own * shaft->density)),
+        shaft->scattered * intensity * through * unoccluded(from, shaft->place, random) *
+            (weight / (own * shaft->density)),
         scatterings + 1, bounces);
   }
 
@@ -457,7 +506,8 @@ struct PathTracer::State {
   /// Light of a lamp that a surface where one of its rays ends reflects toward `from`.
   template <class Reflect, class Density>
   void add_lit_surface(const Walk& walk, const Vector& from, int scatterings, int bounces, std::size_t lamp,
-                       const Ray& beam, const Hit& lit, const Spectrum& intensity, Reflect reflect, Density density) {
+                       const Ray& beam, const Hit& lit, const Spectrum& intensity, RandomStream& random,
+                       Reflect reflect, Density density) {
     const Vector way = lit.point - from;
     if (length_squared(way) == 0.0) return;
     const Vector direction = normalized(way);
@@ -470,7 +520,7 @@ struct PathTracer::State {
     const Spectrum through = transmittance(context.medium, beam, lit.t, shadow);
     const Vector start = context.geometry.leave(lit.point, lit.geometric_normal);
     const double weight = balance(own, density(direction)) / own;
-    add(walk, f * reflected * light * through * unoccluded(from, start) * weight, scatterings, bounces + 1);
+    add(walk, f * reflected * light * through * unoccluded(from, start, random) * weight, scatterings, bounces + 1);
   }
 
   /// Density [1/sr] at `from` of the direction to a place on a surface that a ray of a lamp hits, chosen as above.
@@ -485,11 +535,12 @@ struct PathTracer::State {
     return per_area * length_squared(way) / facing;
   }
 
-  /// A collision at distance t of the walk's segment: adds direct light of surroundings and emissive surfaces, and
-  /// turns.
-  bool collide(Walk& walk, double t, RandomStream& random) {
+  /// A collision at distance t of the walk's segment: adds direct light of surroundings and emissive surfaces, and that
+  /// of suns if it stands for the segment's, and turns.
+  bool collide(Walk& walk, double t, bool with_suns, RandomStream& random) {
     scatter.set(context.medium, stretches, t);
     const Vector point = walk.ray.at(t);
+    if (with_suns) suns_at(walk, t, scatter, walk.beta, random);
     scatter.aim(walk.beta);
     const double xi[2] = {random.next(), random.next()};
     if (is_zero(walk.beta * scatter.scattering())) return false;
@@ -503,7 +554,8 @@ struct PathTracer::State {
       const Deflection<double> d = toward(light.direction);
       const double weight = balance(light.density, scatter.density(d)) / light.density;
       const Spectrum contribution = walk.beta * scatter.scattered(d) * light.radiance * weight;
-      if (!is_zero(contribution)) add(walk, contribution * unoccluded({point, light.direction}, light.distance), 1, 0);
+      if (!is_zero(contribution))
+        add(walk, contribution * unoccluded({point, light.direction}, light.distance, random), 1, 0);
     }
     aim(walk, point, extinction_at(stretches, t));
     const auto reflect = [&](const Vector& next) {
@@ -547,13 +599,13 @@ struct PathTracer::State {
           walk.direction_density > 0.0
               ? balance(walk.direction_density, walk.aim.tries() * beam_density(walk, lamp.lamp, hit, walk.ray.origin))
               : 1.0;
-      add(walk, lamp.reflected * unoccluded(start, position) * (weight / lamp.density), 0, 1);
+      add(walk, lamp.reflected * unoccluded(start, position, random) * (weight / lamp.density), 0, 1);
     }
     for (std::size_t i = 0; i < context.lights.suns.size(); ++i) {
       const LightSample light = sample_sun(context.lights.suns[i], random.next(), random.next());
       const Spectrum f = surface.evaluate(light.direction);
       if (is_zero(f)) continue;
-      const Spectrum brought = walk.beta * f * light.radiance * unoccluded({start, light.direction}, infinity);
+      const Spectrum brought = walk.beta * f * light.radiance * unoccluded({start, light.direction}, infinity, random);
       learn_of_sun(walk, i, hit.point, light.direction, brought);
       const double beams =
           walk.sun_tries > 0.0 ? walk.sun_tries * sunlit_density(i, hit, -light.direction, walk.ray.origin) : 0.0;
@@ -565,7 +617,8 @@ struct PathTracer::State {
       const Spectrum f = surface.evaluate(light.direction);
       if (is_zero(f)) continue;
       const double weight = balance(light.density, surface.density(light.direction)) / light.density;
-      add(walk, walk.beta * f * light.radiance * weight * unoccluded({start, light.direction}, light.distance), 0, 1);
+      add(walk, walk.beta * f * light.radiance * weight * unoccluded({start, light.direction}, light.distance, random),
+          0, 1);
     }
     stretches_along(context.medium, {start, hit.geometric_normal}, infinity, stretches);
     aim(walk, start, extinction_at(stretches, 0.0));

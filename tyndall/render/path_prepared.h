@@ -14,6 +14,7 @@ struct PathContext::Prepared {
   int max_depth;
   double follow_through;
   std::vector<SunBeams> beams;  // one for each sun, or none: before PathContext::learn, and where they are of no use
+  bool winding;                 // whether following a ray through the medium may take many pieces
 };
 
 }  // namespace tyndall

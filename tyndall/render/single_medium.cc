@@ -74,7 +74,7 @@ void RayMedium::set(const SingleMedium& medium, const Ray& ray, double end) {
   for (const Stretch& s : stretches_) {
     if (s.range.begin > 0.0) borders_.push_back(s.range.begin);
     borders_.push_back(s.range.end);
-    if (s.rate == 0.0 || s.points > 0) continue;  // pieces of a form are short enough
+    if (s.rate == 0.0 || s.points != 0) continue;  // pieces of a form are short enough
     // 16 points follow an exponential of an exponential over 5 scale lengths; further than 45 of them from its dense
     // end nothing is left of it.
     const double step = 5.0 / std::fabs(s.rate), top = std::min(s.range.end, reach_);
