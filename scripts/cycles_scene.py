@@ -76,6 +76,25 @@ def add_light(light, number):
         look(thing, light["direction"])
 
 
+def plain_surfaces():
+    """Blender's own surface for glTF has Disney's diffuse part, which at roughness 1 and grazing angles is far brighter than glTF's: in its
+    place a Lambertian one and, with what a dielectric reflects in the mean, GGX."""
+    for material in list(bpy.data.materials):
+        tree = material.node_tree
+        principled = tree.nodes["Principled BSDF"]
+        color, roughness = tuple(principled.inputs["Base Color"].default_value), principled.inputs["Roughness"].default_value
+        tree.nodes.clear()
+        output, mix = tree.nodes.new("ShaderNodeOutputMaterial"), tree.nodes.new("ShaderNodeMixShader")
+        diffuse, glossy = tree.nodes.new("ShaderNodeBsdfDiffuse"), tree.nodes.new("ShaderNodeBsdfGlossy")
+        diffuse.inputs["Color"].default_value = color
+        glossy.distribution = "GGX"
+        glossy.inputs["Roughness"].default_value = roughness
+        mix.inputs[0].default_value = 0.05
+        tree.links.new(diffuse.outputs[0], mix.inputs[1])
+        tree.links.new(glossy.outputs[0], mix.inputs[2])
+        tree.links.new(mix.outputs[0], output.inputs["Surface"])
+
+
 def medium_shader(species, profile, name):
     """A volume shader of one species: scattering and absorption in 1/m, grey."""
     phase = species["phase"]
@@ -193,6 +212,7 @@ def main():
     scene.render.engine = "CYCLES"
     for geometry in description.get("geometry", []):
         bpy.ops.import_scene.gltf(filepath=os.path.join(folder, geometry))
+    plain_surfaces()
     for number, light in enumerate(description["lights"]):
         add_light(light, number)
     if "medium" in description:

@@ -75,7 +75,7 @@ def bank():
     lights = [{"type": "sun", "direction": [0.5, -0.45, 0.75], "irradiance": [20, 18, 14], "angular_diameter": 0.53},
               {"type": "environment", "radiance": [0.6, 0.9, 1.5]}]
     camera = {"position": [0, 3, 16], "look_at": [0, 4, 0], "up": [0, 1, 0], "vertical_fov": 50}
-    volume = {"medium": fog(0.999, 0.85, 0.001), "profile": {"law": "box", "min": [-14, 0, -10], "max": [14, 7, 0]}}
+    volume = {"medium": fog(0.999, 0.85, 0.001), "profile": {"law": "box", "min": [-14, -0.5, -10], "max": [14, 7, 0]}}
     return document, scene("bank", camera, lights, volumes=[volume])
 
 

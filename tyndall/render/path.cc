@@ -10,8 +10,15 @@
 namespace tyndall {
 
 PathContext::PathContext(const Scene& scene, const Geometry& geometry, int max_depth, double follow_through)
-    : prepared_(new Prepared{
-          scene, geometry, lower(scene.medium, scene.time), PathLights(scene), max_depth, follow_through, {}, false}) {
+    : prepared_(new Prepared{scene,
+                             geometry,
+                             lower(scene.medium, scene.time),
+                             PathLights(scene),
+                             max_depth,
+                             follow_through,
+                             {},
+                             false,
+                             DenseAir(lower(scene.medium, scene.time))}) {
   prepared_->winding = std::ranges::any_of(prepared_->medium.species, [](const auto& s) { return !s.form.empty(); });
 }
 PathContext::~PathContext() = default;
@@ -27,6 +34,8 @@ struct Walk {
   LampAim aim;                     // of the event that sampled it
   double sun_tries = 0.0;          // there: how often, in the mean, it followed a ray of each sun instead
   double lobe_density = 0.0;       // there: with which a direction by the sun's lobe would have been ray.direction
+  Spectrum extinction;             // there [1/m]
+  bool been_in_dense = false;      // whether it has passed dense air
   bool sought_sky = false;         // there: whether the surroundings were sampled, too
   double first_promise = 0.0;      // PathLights::promise_at its first event
 
@@ -49,7 +58,6 @@ struct PathTracer::State {
   PathSample out;
   std::vector<Stretch> stretches, shadow;
   ScatterPoint scatter, beside;  // at the collision; at a lamp's sample of the same segment
-  double reach = infinity;       // of follow_air
   LampSegment segment;
   std::vector<SunLesson>* lessons = nullptr;  // where to write what is met of the suns, if anybody learns
   std::uint64_t sun_tries = 0;                // how often it was looked for
@@ -94,24 +102,10 @@ struct PathTracer::State {
                            : transmittance(context.medium, {from, way / distance}, distance, shadow);
   }
 
-  /// Sets `stretches` to what a ray meets before `end`; where following it takes long, no further than hardly any
-  /// flight goes. Returns whether it is so dense: then a flight need not be forced to collide.
-  bool follow_air(const Ray& ray, double end) {
-    constexpr double hardly_passed = 5.0;
-    const bool worth_it = context.winding && context.lights.lamps.empty();  // lamps look at whole segments
-    reach = stretches_along(context.medium, ray, end, stretches, worth_it ? hardly_passed : infinity);
-    return reach < end;
-  }
-
-  /// A flight in the stretches of follow_air, with its arguments and result; in those of the whole ray if need be.
-  Flight flight_along(const Ray& ray, const Spectrum& beta, double end, bool dense, bool forced, double xi_channel,
-                      double xi_depth) {
-    if (dense) {
-      const Flight flight = sample_flight(stretches, beta, reach, forced, xi_channel, xi_depth);
-      if (flight.t < reach) return flight;
-      stretches_along(context.medium, ray, end, stretches);
-    }
-    return sample_flight(stretches, beta, end, forced, xi_channel, xi_depth);
+  /// Whether a flight from `ray.origin`, where the extinction is given, is to be sampled as it comes: it will hardly
+  /// leave the air, and need not be forced to collide nor the whole ray looked at. (Lamps look at whole segments.)
+  bool is_dense(const Ray& ray, const Spectrum& extinction, double end) const {
+    return context.lights.lamps.empty() && context.dense_air.lies_ahead(ray, extinction, end);
   }
 
   PathSample trace(const Ray& ray, double distance, RandomStream& random, bool sees_sun) {
@@ -157,13 +151,16 @@ struct PathTracer::State {
       random.align(event_dimensions);
       const std::optional<Hit> hit = context.geometry.intersect(walk.ray);
       const double end = hit ? hit->t : infinity;
-      const bool dense = follow_air(walk.ray, end);
+      const bool dense = is_dense(walk.ray, walk.extinction, end);
+      walk.been_in_dense = walk.been_in_dense || dense;
+      double xi_depth = dense ? random.next() : 0.0;
+      stretches_along(context.medium, walk.ray, end, stretches, dense ? -std::log1p(-xi_depth) : infinity);
       if (may_go_on(walk)) {
         lamps_along(walk, end, random);
         if (!dense) suns_along(walk, end, random);
       }
-      const double xi_depth = random.next(), xi_channel = random.next();
-      const Flight flight = flight_along(walk.ray, walk.beta, end, dense, false, xi_channel, xi_depth);
+      if (!dense) xi_depth = random.next();
+      const Flight flight = sample_flight(stretches, walk.beta, end, false, random.next(), xi_depth);
       walk.beta *= flight.weight;
       if (is_zero(walk.beta)) return;
       if (flight.t < end) {
@@ -183,16 +180,16 @@ struct PathTracer::State {
   }
 
   /// Russian roulette. By promise: throughput times the light to be had where the walk is, relative to where it began;
-  /// its weight never grows beyond what that promise has lost. By depth (PathContext, follow_through): weights grow no
-  /// faster than the depth, so variance stays bounded wherever light is lost. Last resort against endless walks: beyond
-  /// 256 events the weight grows as the depth, besides: those who got far are few, but not so few that they bring
-  /// sparks.
+  /// its weight never grows beyond what that promise has lost. By depth (PathContext, follow_through), except after
+  /// dense air, whose late orders are most of its light: weights grow no faster than the depth, so variance stays
+  /// bounded wherever light is lost. Last resort against endless walks: beyond 256 events the weight grows as the
+  /// depth, besides: those who got far are few, but not so few that they bring sparks.
   double survival_of(const Walk& walk) const {
     const double promise = largest(walk.beta) * context.lights.promise_at(walk.ray.origin) / walk.first_promise;
     const int depth = walk.depth();
     const bool doubled = depth >= 2 && (depth & (depth - 1)) == 0;
     return std::clamp(4.0 * promise, 0.1, depth > 256 ? 1.0 - 1.0 / depth : 1.0) *
-           (doubled ? context.follow_through : 1.0);
+           (doubled && !walk.been_in_dense ? context.follow_through : 1.0);
   }
 
   /// Light of point and spot lamps scattered toward the walk from its segment [0, end], whatever happens to the walk
@@ -232,19 +229,25 @@ struct PathTracer::State {
       const Flight flight = sample_flight(stretches, walk.beta, end, true, xi_channel, xi);
       if (!(flight.t < end)) continue;
       beside.set(context.medium, stretches, flight.t);
-      suns_at(walk, flight.t, beside, walk.beta * flight.weight / static_cast<double>(places), random);
+      suns_at(walk, flight.t, beside, walk.beta * flight.weight / static_cast<double>(places), false, random);
     }
   }
 
-  /// The suns' light scattered toward the walk at distance t of its segment, with throughput beta.
-  void suns_at(const Walk& walk, double t, const ScatterPoint& there, const Spectrum& beta, RandomStream& random) {
+  /// Of what a sun may bring, in the mean over channels and per what a walk of throughput 1 brings by an even law, the
+  /// share that is looked for.
+  static double worth_looking(const Spectrum& per_steradian) {
+    return std::min(1.0, mean(per_steradian) * (4.0 * std::numbers::pi));
+  }
+
+  /// The suns' light scattered toward the walk at distance t of its segment, with throughput beta. thrifty: what is
+  /// little is looked for seldom.
+  void suns_at(const Walk& walk, double t, const ScatterPoint& there, const Spectrum& beta, bool thrifty,
+               RandomStream& random) {
     const Vector point = walk.ray.at(t);
     for (std::size_t i = 0; i < context.lights.suns.size(); ++i) {
       const LightSample light = sample_sun(context.lights.suns[i], random.next(), random.next());
       const Spectrum f = there.scattered(deflection_between(-light.direction, -walk.ray.direction));
       if (is_zero(f)) continue;
-      const Spectrum light_there = light.radiance * unoccluded({point, light.direction}, infinity, random);
-      learn_of_sun(walk, i, point, light.direction, beta * f * light_there);
       double weight = 1.0;
       const double beams =
           walk.sun_tries > 0.0 ? walk.sun_tries * context.beams[i].density(point, -light.direction) : 0.0;
@@ -254,7 +257,13 @@ struct PathTracer::State {
       }
       // (With beams there are no lobes.)
       if (walk.lobe_density > 0.0) weight = balance(walk.direction_density, walk.lobe_density);
-      add(walk, beta * f * light_there * weight, 1, 0);
+      const double looks = thrifty ? worth_looking(beta * f * weight) : 1.0;
+      const bool in_vain = thrifty && random.next() >= looks;
+      const Spectrum brought =
+          in_vain ? Spectrum{}
+                  : beta * f * light.radiance * unoccluded({point, light.direction}, infinity, random) / looks;
+      learn_of_sun(walk, i, point, light.direction, brought);
+      add(walk, brought * weight, 1, 0);
     }
   }
 
@@ -285,19 +294,23 @@ struct PathTracer::State {
     if (is_zero(f) || !(own > 0.0)) return;
     const auto hit = context.geometry.intersect(ray);
     const double end = hit ? hit->t : infinity;
-    const bool dense = follow_air(ray, end);
-    if (stretches.empty()) return;
+    const bool dense = is_dense(ray, walk.extinction, end);
+    const double weight = balance(own, density(ray.direction)) / own;
+    const double looks = dense ? worth_looking(f * (own * weight)) : 1.0;
+    if (dense && random.next() >= looks) return;
     const double xi_channel = random.next(), xi_depth = random.next();
-    const Flight flight = flight_along(ray, f, end, dense, !dense, xi_channel, xi_depth);
+    stretches_along(context.medium, ray, end, stretches, dense ? -std::log1p(-xi_depth) : infinity);
+    if (stretches.empty()) return;
+    const Flight flight = sample_flight(stretches, f, end, !dense, xi_channel, xi_depth);
     if (!(flight.t < end)) return;
     const Vector place = ray.at(flight.t);
     beside.set(context.medium, stretches, flight.t);
     const LightSample light = sample_sun(sun, random.next(), random.next());
     const Spectrum scattered =
         f * flight.weight * beside.scattered(deflection_between(-light.direction, -ray.direction));
-    const double weight = balance(own, density(ray.direction)) / own;
     if (is_zero(scattered)) return;
-    add(walk, scattered * light.radiance * unoccluded({place, light.direction}, infinity, random) * weight, 2, 0);
+    add(walk, scattered * light.radiance * unoccluded({place, light.direction}, infinity, random) * (weight / looks), 2,
+        0);
   }
 
   void learn_of_sun(const Walk& walk, std::size_t sun, const Vector& place, const Vector& toward,
@@ -540,7 +553,7 @@ struct PathTracer::State {
   bool collide(Walk& walk, double t, bool with_suns, RandomStream& random) {
     scatter.set(context.medium, stretches, t);
     const Vector point = walk.ray.at(t);
-    if (with_suns) suns_at(walk, t, scatter, walk.beta, random);
+    if (with_suns) suns_at(walk, t, scatter, walk.beta, true, random);
     scatter.aim(walk.beta);
     const double xi[2] = {random.next(), random.next()};
     if (is_zero(walk.beta * scatter.scattering())) return false;
@@ -557,7 +570,8 @@ struct PathTracer::State {
       if (!is_zero(contribution))
         add(walk, contribution * unoccluded({point, light.direction}, light.distance, random), 1, 0);
     }
-    aim(walk, point, extinction_at(stretches, t));
+    walk.extinction = extinction_at(stretches, t);
+    aim(walk, point, walk.extinction);
     const auto reflect = [&](const Vector& next) {
       return walk.beta * scatter.scattered(deflection_between(walk.ray.direction, next));
     };
@@ -621,7 +635,8 @@ struct PathTracer::State {
           0, 1);
     }
     stretches_along(context.medium, {start, hit.geometric_normal}, infinity, stretches);
-    aim(walk, start, extinction_at(stretches, 0.0));
+    walk.extinction = extinction_at(stretches, 0.0);
+    aim(walk, start, walk.extinction);
     const auto reflect = [&](const Vector& next) { return walk.beta * surface.evaluate(next); };
     const auto density_of = [&](const Vector& next) { return surface.density(next); };
     toward_lamplight(walk, start, 0, 1, random, reflect, density_of);

@@ -1,5 +1,6 @@
 #pragma once
 // What a PathContext holds; for path*.cc only.
+#include "tyndall/render/dense_air.h"
 #include "tyndall/render/path.h"
 #include "tyndall/render/path_lights.h"
 #include "tyndall/render/sun_beams.h"
@@ -15,6 +16,7 @@ struct PathContext::Prepared {
   double follow_through;
   std::vector<SunBeams> beams;  // one for each sun, or none: before PathContext::learn, and where they are of no use
   bool winding;                 // whether following a ray through the medium may take many pieces
+  DenseAir dense_air;
 };
 
 }  // namespace tyndall
