@@ -9,6 +9,7 @@
 
 #include "tyndall/artist/random_dials_test.h"
 #include "tyndall/document/binding.h"
+#include "tyndall/document/folder_test.h"
 #include "tyndall/document/json_locator.h"
 #include "tyndall/document/law_text.h"
 #include "tyndall/document/medium_blend.h"
@@ -23,32 +24,8 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 using tests::Dice;
-
-/// A folder of its own for each test, gone afterwards.
-struct Folder {
-  fs::path path;
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "tyndall-test-XXXXXX").string();
-    path = ::mkdtemp(name.data());
-  }
-  ~Folder() { fs::remove_all(path); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  fs::path write(const std::string& name, const std::string& text) const {
-    fs::create_directories((path / name).parent_path());
-    std::ofstream(path / name, std::ios::binary) << text;
-    return path / name;
-  }
-};
-
-std::string fault_of(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const Fault& fault) {
-    return fault.what();
-  }
-  return "no fault";
-}
+using tests::fault_of;
+using tests::Folder;
 
 MediumFile harbour_fog() {
   return read_medium_file(fs::path(TYNDALL_SOURCE_DIR) / "examples" / "media" / "harbour_fog.medium.json");

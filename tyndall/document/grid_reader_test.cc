@@ -15,6 +15,7 @@
 #include <random>
 
 #include "tyndall/document/fault.h"
+#include "tyndall/document/folder_test.h"
 #include "tyndall/document/medium_file.h"
 #include "tyndall/document/whole_file.h"
 #include "tyndall/medium/lowered_medium.h"
@@ -26,28 +27,18 @@ namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
 
-/// A folder of its own for each test, gone afterwards.
 class GridReader : public testing::Test {
  protected:
-  GridReader() {
-    openvdb::initialize();
-    std::string name = (fs::temp_directory_path() / "tyndall-grids-XXXXXX").string();
-    folder = ::mkdtemp(name.data());
-  }
-  ~GridReader() override { fs::remove_all(folder); }
+  GridReader() { openvdb::initialize(); }
 
   fs::path write(const openvdb::GridPtrVec& grids, const std::string& name = "cloud.vdb") const {
-    openvdb::io::File file((folder / name).string());
+    openvdb::io::File file((folder.path / name).string());
     file.write(grids);
-    return folder / name;
+    return folder.path / name;
   }
-  fs::path write_text(const std::string& name, const std::string& text) const {
-    fs::create_directories((folder / name).parent_path());
-    std::ofstream(folder / name, std::ios::binary) << text;
-    return folder / name;
-  }
+  fs::path write_text(const std::string& name, const std::string& text) const { return folder.write(name, text); }
 
-  fs::path folder;
+  tests::Folder folder;
 };
 
 /// A ball of fog around voxel (3, -5, 20), thickest in its middle.
@@ -84,16 +75,8 @@ void expect_ball(const GridFile& file) {
   }
 }
 
-std::string fault_of(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const Fault& fault) {
-    return fault.what();
-  }
-  return "no fault";
-}
 std::string fault_of(const fs::path& file, const std::string& name = "") {
-  return fault_of([&] { read_grid(file, name); });
+  return tests::fault_of([&] { read_grid(file, name); });
 }
 
 TEST_F(GridReader, ReadsFloatHalfAndDoubleWhereTheTransformPutsThem) {
@@ -166,7 +149,7 @@ TEST_F(GridReader, RefusesWhatIsNoDensity) {
   bent->setTransform(openvdb::math::Transform::createFrustumTransform(
       openvdb::BBoxd(openvdb::Vec3d(0, 0, 0), openvdb::Vec3d(10, 10, 10)), 0.5, 1.0, 1.0));
   EXPECT_THAT(fault_of(write({bent})), HasSubstr("transform"));
-  EXPECT_THAT(fault_of(folder / "absent.vdb"), HasSubstr("absent.vdb"));
+  EXPECT_THAT(fault_of(folder.path / "absent.vdb"), HasSubstr("absent.vdb"));
   EXPECT_THAT(fault_of(write_text("a.vdb", "no grid at all")), HasSubstr("OpenVDB cannot read"));
   EXPECT_THAT(fault_of(write({})), HasSubstr("no grids"));
 }
@@ -225,8 +208,8 @@ TEST_F(GridReader, WrittenMediaFindTheirGridAgain) {
       "m.medium.json",
       medium_start + std::string(R"({"name": "a", "density": 1, "profile": {"law": "grid", "file": "cloud.vdb"}}]})"));
   const MediumFile medium = read_medium_file(file);
-  write_medium_file(folder / "again.medium.json", medium);
-  EXPECT_EQ(compile(read_medium_file(folder / "again.medium.json"), "").species[0].profiles,
+  write_medium_file(folder.path / "again.medium.json", medium);
+  EXPECT_EQ(compile(read_medium_file(folder.path / "again.medium.json"), "").species[0].profiles,
             compile(medium, "").species[0].profiles);
 }
 
@@ -235,14 +218,14 @@ TEST_F(GridReader, FaultsOfMediaSayWhereTheFileWasNamed) {
   const auto fault = [&](const std::string& profile) {
     const fs::path file = write_text(
         "m.medium.json", std::string(medium_start) + R"({"name": "a", "density": 1, "profile": )" + profile + "}]}");
-    return fault_of([&] { read_medium_file(file); });
+    return tests::fault_of([&] { read_medium_file(file); });
   };
   EXPECT_THAT(fault(R"({"law": "grid"})"), HasSubstr("no key \"file\""));
   EXPECT_THAT(fault(R"({"law": "grid", "file": "clod.vdb"})"), HasSubstr("/species/0/profile/file"));
   EXPECT_THAT(fault(R"({"law": "grid", "file": "../cloud.vdb"})"), HasSubstr("/species/0/profile/file"));
   EXPECT_THAT(fault(R"({"law": "grid", "file": "cloud.vdb", "name": "fog"})"), HasSubstr("density"));
   EXPECT_THAT(fault(R"({"law": "grid", "file": "cloud.vdb", "scale": -1})"), HasSubstr("at least 0"));
-  EXPECT_THAT(fault_of([&] {
+  EXPECT_THAT(tests::fault_of([&] {
                 medium_from_json(
                     std::string(medium_start) + R"({"density": 1, "profile": {"law": "grid", "file": "cloud.vdb"}}]})",
                     "m");

@@ -12,6 +12,7 @@
 #include <functional>
 #include <random>
 
+#include "tyndall/document/folder_test.h"
 #include "tyndall/document/law_text.h"
 #include "tyndall/document/medium_blend.h"
 #include "tyndall/document/medium_file.h"
@@ -26,32 +27,8 @@ namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
-
-/// A folder of its own for each test, gone afterwards.
-struct Folder {
-  fs::path path;
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "tyndall-rows-XXXXXX").string();
-    path = ::mkdtemp(name.data());
-  }
-  ~Folder() { fs::remove_all(path); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  fs::path write(const std::string& name, const std::string& text) const {
-    fs::create_directories((path / name).parent_path());
-    std::ofstream(path / name, std::ios::binary) << text;
-    return path / name;
-  }
-};
-
-std::string fault_of(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const Fault& fault) {
-    return fault.what();
-  }
-  return "no fault";
-}
+using tests::fault_of;
+using tests::Folder;
 
 const std::string two_columns = "0,10\n90,1\n180,2\n";
 const std::string four_columns = "angle red green blue\n0 9 4 1\n60 1 2 1\n180 .5 1 1\n";
