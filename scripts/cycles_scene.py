@@ -12,11 +12,13 @@ import math
 import os
 import sys
 
-import bpy
-import numpy
-from mathutils import Matrix, Vector
-
-numpy.bool = bool  # Debian's Blender 3.4 reads glTF by a name that its NumPy has lost
+try:
+    import bpy
+    import numpy
+    from mathutils import Matrix, Vector
+    numpy.bool = bool  # Debian's Blender 3.4 reads glTF by a name that its NumPy has lost
+except ImportError:
+    bpy = None  # not in Blender
 
 SIZE_OF_EVERYTHING = 3000.0  # a medium without bounds ends so far from the origin [m]
 
@@ -186,7 +188,7 @@ def add_medium(medium, profile, bounds, folder, name):
 
 
 def main():
-    parser = argparse.ArgumentParser()
+    parser = argparse.ArgumentParser(description="Render a scene file with Cycles, in Blender.")
     parser.add_argument("scene")
     parser.add_argument("output")
     parser.add_argument("--size", default="512x512")
@@ -195,7 +197,9 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--threads", type=int, default=2)
     parser.add_argument("--bounds", help="six numbers: where a medium without bounds ends")
-    arguments = parser.parse_args(sys.argv[sys.argv.index("--") + 1:])
+    arguments = parser.parse_args(sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else None)
+    if bpy is None:
+        sys.exit("cycles_scene: this runs in Blender: blender -b --factory-startup --python scripts/cycles_scene.py -- ..")
     bounds = None
     if arguments.bounds:
         numbers = [float(x) for x in arguments.bounds.split(",")]

@@ -23,7 +23,10 @@ import subprocess
 import sys
 import tempfile
 
-import numpy
+try:
+    import numpy
+except ImportError:
+    numpy = None
 
 sys.dont_write_bytecode = True
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -86,6 +89,8 @@ def main():
     names = arguments.scenes or NAMES
     if not set(names) <= set(NAMES):
         parser.error("scenes are " + ", ".join(NAMES))
+    if numpy is None:
+        sys.exit("race_cycles: no numpy for this Python (Debian: apt-get install python3-numpy)")
     if not shutil.which("blender"):
         sys.exit("race_cycles: no blender on this machine (Debian: apt-get install blender)")
     folder = arguments.folder or tempfile.mkdtemp()

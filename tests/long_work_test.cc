@@ -41,8 +41,8 @@ TEST_F(LongWork, KilledAtAnyMomentAndResumedIsTheSamePicture) {
 }
 
 TEST_F(LongWork, CtrlCLeavesAPictureAndACheckpoint) {
-  const Outcome outcome =
-      render("--spp 1000000 --checkpoint film.checkpoint -o picture.exr", "timeout --preserve-status -s INT 1");
+  const Outcome outcome = render("--spp 1000000 --checkpoint film.checkpoint -o picture.exr",
+                                 "timeout --foreground --preserve-status -s INT 1");
   EXPECT_EQ(outcome.code, 130) << outcome.err;
   EXPECT_NE(outcome.err.find("stopped"), std::string::npos);
   EXPECT_EQ(read_exr(folder_ / "picture.exr").width, 64);
