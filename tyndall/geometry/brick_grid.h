@@ -61,6 +61,29 @@ struct BrickGrid {
     return unit * static_cast<double>(number_of(voxels[b * size + place_in_brick(index)]));
   }
 
+  /// The voxels of a brick; none where all are 0.
+  const std::uint16_t* voxels_of(const Index& brick) const {
+    const std::uint32_t b = has_brick(brick) ? block[number_of_brick(brick)] : empty;
+    return b == empty ? nullptr : &voxels[b * size];
+  }
+
+  /// Whether all corners of a cell lie in its own brick.
+  static bool within_brick(const Index& cell) { return (cell[0] & 7) < 7 && (cell[1] & 7) < 7 && (cell[2] & 7) < 7; }
+
+  /// The numbers at the corners of such a cell, from the voxels of its brick.
+  Corners corners(const std::uint16_t* brick, const Index& cell) const {
+    const std::uint16_t* const first = brick + place_in_brick(cell);
+    const std::array<const std::uint16_t*, 4> rows{first, first + 8, first + 64, first + 72};
+    std::array<float, 8> read;
+    for (std::size_t i = 0; i < 4; ++i) {
+      read[2 * i] = number_of(rows[i][0]);
+      read[2 * i + 1] = number_of(rows[i][1]);
+    }
+    Corners out;
+    for (std::size_t i = 0; i < 8; ++i) out[i] = unit * static_cast<double>(read[i]);
+    return out;
+  }
+
   /// The numbers at the corners of a cell.
   Corners corners(const Index& cell) const {
     static constexpr std::array<std::uint16_t, size> zeros{};
@@ -82,8 +105,8 @@ struct BrickGrid {
       }
       const Index brick{(cell[0] >> 3) + static_cast<int>(i & 1), (cell[1] >> 3) + static_cast<int>(i >> 1 & 1),
                         (cell[2] >> 3) + static_cast<int>(i >> 2)};
-      const std::uint32_t b = has_brick(brick) ? block[number_of_brick(brick)] : empty;
-      in[i] = b == empty ? zeros.data() : &voxels[b * size];
+      const std::uint16_t* const there = voxels_of(brick);
+      in[i] = there != nullptr ? there : zeros.data();
     }
     const std::size_t first = at[0] + at[1] + at[2];
     Corners out;

@@ -48,18 +48,23 @@ class GridWalk {
   /// Goes to the next cell that holds something. False: there is none.
   bool next() {
     while (now_ < end_) {
-      const BrickGrid::Index brick{cell_[0] >> 3, cell_[1] >> 3, cell_[2] >> 3};
-      if (!(grid_.greatest[grid_.number_of_brick(brick)] > 0.0F)) {
-        leave_brick(brick);
+      if (new_brick_) look_at_brick();
+      if (clear_) {
+        leave_brick();
         continue;
       }
       const BrickGrid::Index here = cell_;
+      const std::uint16_t* const voxels = voxels_;
       const double begin = now_;
       step();
       range_ = {begin, std::min(now_, end_)};
       if (!(range_.begin < range_.end)) continue;
-      const BrickGrid::Corners corners = grid_.corners(here);
-      if (*std::max_element(corners.begin(), corners.end()) == 0.0) continue;
+      const bool within = BrickGrid::within_brick(here);
+      if (within && voxels == nullptr) continue;
+      const BrickGrid::Corners corners = within ? grid_.corners(voxels, here) : grid_.corners(here);
+      double all = 0.0;
+      for (const double x : corners) all += x;
+      if (all == 0.0) continue;
       set_cubic(corners, here);
       return true;
     }
@@ -88,8 +93,16 @@ class GridWalk {
     }
   }
 
+  void look_at_brick() {
+    const BrickGrid::Index brick{cell_[0] >> 3, cell_[1] >> 3, cell_[2] >> 3};
+    clear_ = !(grid_.greatest[grid_.number_of_brick(brick)] > 0.0F);
+    voxels_ = grid_.voxels_of(brick);
+    new_brick_ = false;
+  }
+
   void pass(std::size_t a) {
     now_ = std::max(now_, exit_[a]);
+    new_brick_ = new_brick_ || (cell_[a] & 7) == (sign_[a] > 0 ? 7 : 0);
     cell_[a] += sign_[a];
     if (cell_[a] < grid_.low[a] || cell_[a] >= grid_.high[a]) {
       now_ = infinity;
@@ -100,8 +113,9 @@ class GridWalk {
 
   void step() { pass(exit_[0] < exit_[1] ? (exit_[0] < exit_[2] ? 0 : 2) : (exit_[1] < exit_[2] ? 1 : 2)); }
 
-  /// Goes on where the ray leaves a brick.
-  void leave_brick(const BrickGrid::Index& brick) {
+  /// Goes on where the ray leaves the brick.
+  void leave_brick() {
+    const BrickGrid::Index brick{cell_[0] >> 3, cell_[1] >> 3, cell_[2] >> 3};
     std::size_t across = 0;
     double first = infinity;
     for (std::size_t a = 0; a < 3; ++a) {
@@ -151,6 +165,8 @@ class GridWalk {
   std::array<int, 3> sign_{};
   std::array<double, 3> exit_{};  // t at which the cell ends, by axis
   BrickGrid::Index cell_{};
+  const std::uint16_t* voxels_ = nullptr;  // of the cell's brick
+  bool new_brick_ = true, clear_ = false;  // clear: all cells of the brick are zero
   double now_ = infinity, end_ = 0.0;
   Interval range_{};
   Cubic cubic_;
