@@ -144,6 +144,15 @@ struct BrickGrid {
     return between(corners(cell), cell, p);
   }
 
+  /// What stands at a point of a brick (clamped into it), given the brick's voxels.
+  double at(const Vector& p, const Index& brick, const std::uint16_t* own) const {
+    Index cell = cell_of(p);
+    for (std::size_t a = 0; a < 3; ++a) cell[a] = std::clamp(cell[a], edge * brick[a], edge * brick[a] + edge - 1);
+    const bool within = within_brick(cell);
+    if (within && own == nullptr) return 0.0;
+    return between(within ? corners(own, cell) : corners(cell), cell, p);
+  }
+
   /// Fills `least`, `greatest`, `low` and `high` from the voxels.
   void find_bounds() {
     least.assign(block.size(), 0.0F);

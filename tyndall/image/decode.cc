@@ -1,5 +1,6 @@
 #include "tyndall/image/decode.h"
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 
@@ -42,11 +43,23 @@ Decoded<std::uint8_t> decode_picture(const std::string& where, std::span<const s
       std::int64_t{width} * height > most_pixels) {
     throw Fault{where, "a picture of " + std::to_string(width) + " x " + std::to_string(height) + " pixels", wanted};
   }
+  const bool has_alpha = channels == 2 || channels == 4;
   const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
-      stbi_load_from_memory(bytes.data(), size, &width, &height, &channels, 3), stbi_image_free);
+      stbi_load_from_memory(bytes.data(), size, &width, &height, &channels, has_alpha ? 4 : 3), stbi_image_free);
   if (!pixels) throw Fault{where, "a PNG or JPEG picture that is damaged or cut short", "a whole one"};
-  const std::size_t count = 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  return {width, height, std::vector<std::uint8_t>(pixels.get(), pixels.get() + count)};
+  const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  Decoded<std::uint8_t> picture{width, height, {}, {}};
+  if (!has_alpha) {
+    picture.rgb.assign(pixels.get(), pixels.get() + 3 * count);
+    return picture;
+  }
+  picture.rgb.resize(3 * count);
+  picture.alpha.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    std::copy_n(pixels.get() + 4 * i, 3, picture.rgb.begin() + static_cast<std::ptrdiff_t>(3 * i));
+    picture.alpha[i] = pixels.get()[4 * i + 3];
+  }
+  return picture;
 }
 
 }  // namespace tyndall

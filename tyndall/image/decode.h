@@ -16,10 +16,11 @@ template <class T>
 struct Decoded {
   int width = 0, height = 0;
   std::vector<T> rgb;
+  std::vector<T> alpha;  // empty where the picture has none
 };
 
-/// A PNG or JPEG picture as 8-bit codes (16-bit PNGs are rounded, grey is spread, alpha dropped). Sizes are checked
-/// before pixels are allocated. Throws Fault {where, ..}.
+/// A PNG or JPEG picture as 8-bit codes (16-bit PNGs are rounded, grey is spread). Sizes are checked before pixels are
+/// allocated. Throws Fault {where, ..}.
 Decoded<std::uint8_t> decode_picture(const std::string& where, std::span<const std::uint8_t> bytes);
 
 }  // namespace tyndall

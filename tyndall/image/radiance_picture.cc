@@ -28,7 +28,7 @@ class Reader {
     const auto width = static_cast<std::size_t>(header.width), height = static_cast<std::size_t>(header.height);
     // The old coding says a row of 16384 pixels in 12 bytes at best; what claims more is a small file after memory.
     if (width * height / 2048 > bytes_.size()) throw fault("fewer bytes than " + size_text(header) + " pixels take");
-    Decoded<float> result{header.width, header.height, std::vector<float>(3 * width * height)};
+    Decoded<float> result{header.width, header.height, std::vector<float>(3 * width * height), {}};
     std::vector<Pixel> row(width);
     for (std::size_t y = 0; y < height; ++y) {
       read_row(row);

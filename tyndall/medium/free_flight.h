@@ -80,6 +80,13 @@ struct Flight {
                     // passing
 };
 
+/// The channel whose distances are sampled, for chances that sum to 1.
+inline std::size_t chosen_channel(const Spectrum& chance, double xi) {
+  std::size_t channel = 0;
+  for (double c = chance[0]; channel + 1 < channel_count && xi >= c; c += chance[channel]) ++channel;
+  return channel;
+}
+
 /// Samples a flight over [0, end] for a path of throughput beta (not all zero). One channel is picked in proportion to
 /// beta and its distances are sampled; the result is weighted by the balance heuristic over all channels (Miller,
 /// Georgiev and Jarosz 2019: spectral MIS), weight_c = T_c / sum_j P_j p_j. With P proportional to beta the sum over
@@ -97,8 +104,7 @@ inline Flight sample_flight(const std::vector<Stretch>& stretches, const Spectru
     if (!(collides > 0.0)) return {infinity, {}};
     chance = chance / collides;
   }
-  std::size_t channel = 0;
-  for (double c = chance[0]; channel + 1 < channel_count && xi_channel >= c; c += chance[channel]) ++channel;
+  const std::size_t channel = chosen_channel(chance, xi_channel);
   const double spent = forced ? xi_depth * (1.0 - through[channel]) : xi_depth;
   const double t = distance_at_depth(stretches, channel, -std::log1p(-spent), end);
   if (t < end) {

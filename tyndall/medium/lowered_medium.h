@@ -8,6 +8,39 @@
 
 namespace tyndall {
 
+/// Calls visit(span of the species of one place) for every place of a medium, in its order.
+template <class Visit>
+void for_each_place(const LoweredMedium& medium, Visit visit) {
+  const std::vector<LoweredSpecies>& species = medium.species;
+  for (std::size_t first = 0, last; first < species.size(); first = last) {
+    for (last = first + 1; last < species.size() && species[last].place == species[first].place;) ++last;
+    visit(std::span<const LoweredSpecies>(&species[first], last - first));
+  }
+}
+
+/// The part of a ray within [0, end] on which a species may be.
+inline Interval range_of(const LoweredSpecies& s, const Ray& ray, double end) {
+  Interval range{0.0, end};
+  for (const Box& box : s.boxes) range = intersection(range, inside(box, ray));
+  for (const Sphere& sphere : s.spheres) range = intersection(range, inside(sphere, ray));
+  if (s.heights.bounded()) range = intersection(range, inside(s.heights, ray));
+  return range;
+}
+
+/// Appends the stretches of the species of one place; arguments and result are those of stretches_along.
+inline double add_stretches(std::span<const LoweredSpecies> together, const Ray& ray, double end,
+                            std::vector<Stretch>& out, double enough) {
+  const LoweredSpecies& s = together.front();
+  const Interval range = range_of(s, ray, end);
+  if (range.empty()) return end;
+  if (!s.form.empty()) return std::min(end, add_formed_stretches(together, ray, range, out, enough));
+  const double rate = s.decay * ray.direction.y;
+  const double start = s.log_at_height(ray.origin.y + range.begin * ray.direction.y), factor = std::exp(start);
+  if (!(factor > 0.0 || rate < 0.0)) return end;
+  for (const LoweredSpecies& one : together) out.push_back(Stretch(one, range, factor, rate, start));
+  return end;
+}
+
 /// The stretches of `medium` along a ray within [0, end]: none of its species overlap themselves, those of one place
 /// come together. What they hold is exact but for rounding; media with noise see form.h for what is left out far away.
 /// Whoever needs no more than an optical depth of `enough` in every channel gets the distance up to which the stretches
@@ -16,25 +49,9 @@ inline double stretches_along(const LoweredMedium& medium, const Ray& ray, doubl
                               double enough = infinity) {
   out.clear();
   double reach = end;
-  const std::vector<LoweredSpecies>& species = medium.species;
-  for (std::size_t first = 0, last; first < species.size(); first = last) {
-    const LoweredSpecies& s = species[first];
-    for (last = first + 1; last < species.size() && species[last].place == s.place;) ++last;
-    Interval range{0.0, end};
-    for (const Box& box : s.boxes) range = intersection(range, inside(box, ray));
-    for (const Sphere& sphere : s.spheres) range = intersection(range, inside(sphere, ray));
-    if (s.heights.bounded()) range = intersection(range, inside(s.heights, ray));
-    if (range.empty()) continue;
-    const std::span<const LoweredSpecies> together(&s, last - first);
-    if (!s.form.empty()) {
-      reach = std::min(reach, add_formed_stretches(together, ray, range, out, enough));
-      continue;
-    }
-    const double rate = s.decay * ray.direction.y;
-    const double start = s.log_at_height(ray.origin.y + range.begin * ray.direction.y), factor = std::exp(start);
-    if (!(factor > 0.0 || rate < 0.0)) continue;
-    for (const LoweredSpecies& one : together) out.push_back(Stretch(one, range, factor, rate, start));
-  }
+  for_each_place(medium, [&](std::span<const LoweredSpecies> together) {
+    reach = std::min(reach, add_stretches(together, ray, end, out, enough));
+  });
   return reach;
 }
 

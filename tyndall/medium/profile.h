@@ -199,6 +199,8 @@ struct PlacedGrid {
   double scale = 1.0;
   Vector start, row[3];  // voxels at p: start + (row[0] . p, row[1] . p, row[2] . p)
   Box bounds;            // [m], around all that is not 0
+  double typical = 0.0;  // a factor: the mean over the bricks that hold something of the middle of their bounds
+  double brick = 0.0;  // [m], the greatest factor times the length of three edges of a brick: no ray goes through more
 
   Vector voxels(const Vector& p) const { return start + voxels_along(p); }
   Vector voxels_along(const Vector& way) const { return {dot(row[0], way), dot(row[1], way), dot(row[2], way)}; }
@@ -213,8 +215,13 @@ inline std::optional<PlacedGrid> placed(const GridProfile& profile) {
   const Vector step[3]{grid->step[0] * profile.size, grid->step[1] * profile.size, grid->step[2] * profile.size};
   const double volume = dot(step[0], cross(step[1], step[2]));
   if (!(std::fabs(volume) > 0.0) || !std::isfinite(1.0 / volume)) return std::nullopt;
-  PlacedGrid out{
-      profile.file.grid, profile.scale, {}, {}, {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}}};
+  PlacedGrid out{profile.file.grid,
+                 profile.scale,
+                 {},
+                 {},
+                 {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}},
+                 0.0,
+                 0.0};
   for (int a = 0; a < 3; ++a) out.row[a] = cross(step[(a + 1) % 3], step[(a + 2) % 3]) / volume;
   out.start = -out.voxels_along(origin);
   for (int i = 0; i < 8; ++i) {
@@ -228,6 +235,16 @@ inline std::optional<PlacedGrid> placed(const GridProfile& profile) {
     out.bounds.high = {std::max(out.bounds.high.x, p.x), std::max(out.bounds.high.y, p.y),
                        std::max(out.bounds.high.z, p.z)};
   }
+  double middles = 0.0, greatest = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < grid->greatest.size(); ++i) {
+    const double most = static_cast<double>(grid->greatest[i]);
+    if (!(most > 0.0)) continue;
+    middles += 0.5 * (most + static_cast<double>(grid->least[i]));
+    greatest = std::max(greatest, most);
+    count += 1.0;
+  }
+  out.typical = profile.scale * middles / count;
+  out.brick = profile.scale * greatest * BrickGrid::edge * (length(step[0]) + length(step[1]) + length(step[2]));
   return out;
 }
 

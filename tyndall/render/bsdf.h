@@ -14,17 +14,22 @@ struct SurfacePoint {
   Frame frame;  // around the shading normal
   Spectrum base_color;
   double metallic = 0.0;
-  double alpha = 1.0;  // squared roughness, clamped away from a mirror
+  double alpha = 1.0;                    // squared roughness, clamped away from a mirror
+  double dielectric_reflectance = 0.04;  // of what is no metal, at normal incidence
 };
 
 inline SurfacePoint surface_point(const Geometry& geometry, const Hit& hit) {
-  const double roughness = std::clamp(hit.material->roughness, 0.03, 1.0);
+  const Material& material = *hit.material;
+  const Spectrum map = map_color(geometry.scene(), material.roughness_map, hit.at);
+  const double roughness = std::clamp(material.roughness * map[1], 0.03, 1.0);
+  const double ratio = (material.ior - 1.0) / (material.ior + 1.0);
   return {hit.point,
           hit.geometric_normal,
           Frame::around(hit.shading_normal),
-          geometry.base_color(hit),
-          hit.material->metallic,
-          roughness * roughness};
+          base_color_at(geometry.scene(), material, hit.at),
+          material.metallic * map[2],
+          roughness * roughness,
+          ratio * ratio};
 }
 
 /// Trowbridge-Reitz distribution of microfacet normals for squared cosine c2 (Walter et al. 2007, eq. 33).
@@ -38,9 +43,9 @@ inline double smith_lambda(double alpha, double cosine) {
   return 0.5 * (std::sqrt(1.0 + alpha * alpha * tangent2) - 1.0);
 }
 
-/// Reflectance at normal incidence: 0.04 for dielectrics, the base colour for metals.
+/// Reflectance at normal incidence: Fresnel's for dielectrics, the base colour for metals.
 inline Spectrum normal_reflectance(const SurfacePoint& s) {
-  return Spectrum::grey(0.04 * (1.0 - s.metallic)) + s.base_color * s.metallic;
+  return Spectrum::grey(s.dielectric_reflectance * (1.0 - s.metallic)) + s.base_color * s.metallic;
 }
 /// Schlick's Fresnel factor for normal reflectance f0.
 inline Spectrum fresnel(const Spectrum& f0, double cosine) {

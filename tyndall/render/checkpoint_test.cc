@@ -217,8 +217,19 @@ TEST(Fingerprint, ChangesWithEverythingThatAPictureDependsOn) {
       [](Scene& s) { s.materials[0].roughness = 0.9; },
       [](Scene& s) { s.materials[2].emission[1] = 3.5; },
       [](Scene& s) { s.materials[2].double_sided = true; },
+      [](Scene& s) { s.materials[0].alpha_mode = AlphaMode::blend; },
+      [](Scene& s) { s.materials[0].alpha = 0.5; },
+      [](Scene& s) { s.materials[0].alpha_cutoff = 0.25; },
+      [](Scene& s) { s.materials[0].ior = 1.6; },
+      [](Scene& s) { s.materials[0].normal_scale = 0.5; },
+      [](Scene& s) { s.materials[0].normal_map.texture = 0; },
+      [](Scene& s) { s.materials[0].emission_map.uv_set = 1; },
+      [](Scene& s) { s.meshes[0].uvs.push_back({}); },
       [](Scene& s) {
-        s.textures.push_back({1, 1, {{0.5f, 0.5f, 0.5f}}});
+        s.meshes[0].tangents.assign(4, {1, 0, 0, 1});
+      },
+      [](Scene& s) {
+        s.textures.push_back({1, 1, {{0.5f, 0.5f, 0.5f}}, Wrap::repeat, Wrap::repeat, {}});
       },
       [](Scene& s) { s.points[0].intensity[2] = 1.5; },
       [](Scene& s) { s.spots[0].outer_angle = 26; },

@@ -17,17 +17,20 @@ class DenseAir {
         if (s.boxes.empty()) box = {ball.center - r, ball.center + r};
       }
       bounds_ = {least(bounds_.low, box.low), greatest(bounds_.high, box.high)};
+      if (s.form.only_a_grid() && s.decay == 0.0) grids_ += s.extinction * s.form.grids[0].typical;
       decay_ = std::max(decay_, s.decay);
     }
   }
 
-  /// Whether the ray, which begins where the extinction is given, has more than a few mean free paths of such air
-  /// before its `end`. Of the same ray always the same.
+  /// Whether the ray, which begins where the extinction is given, has more than a few mean free paths of such air, or
+  /// one of such grids, before its `end`. Of the same ray always the same.
   bool lies_ahead(const Ray& ray, const Spectrum& extinction, double end) const {
-    constexpr double mean_free_paths = 6.0;
     double way = std::min(end, inside(bounds_, ray).end);
     if (decay_ > 0.0) way = std::min(way, 1.0 / (decay_ * std::max(0.0, ray.direction.y)));
-    return std::min({extinction[0], extinction[1], extinction[2]}) * way > mean_free_paths;
+    const double least = std::min({extinction[0], extinction[1], extinction[2]});
+    // Flights through grids cost least by null collisions, which only flights as they come can have.
+    if (least > 0.0 && std::min({grids_[0], grids_[1], grids_[2]}) * way > 1.0) return true;
+    return least * way > 6.0;
   }
 
  private:
@@ -40,6 +43,7 @@ class DenseAir {
 
   Box bounds_{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
   double decay_ = 0.0;
+  Spectrum grids_;  // a typical extinction in them
 };
 
 }  // namespace tyndall

@@ -1,6 +1,6 @@
 #include "tyndall/render/path.h"
 
-#include "tyndall/medium/free_flight.h"
+#include "tyndall/medium/null_flight.h"
 #include "tyndall/medium/scatter.h"
 #include "tyndall/render/bsdf.h"
 #include "tyndall/render/lamp_aim.h"
@@ -46,6 +46,23 @@ struct Walk {
 /// event.
 constexpr std::uint32_t event_dimensions = 32;
 
+/// Transmittance of the eye's ray below which all that is seen lies in the air.
+constexpr double opaque = 2.5e-3;
+/// Optical depth beyond which the eye's ray ends in the air but for a thousandth.
+constexpr double invisible_depth = 7.0;
+
+/// Transmittance where finding it costs by the depth: to a depth of `sure` it is exact; what is left beyond that is
+/// seldom looked for, and counts for more then.
+struct AirDepth {
+  double sure, enough;
+
+  AirDepth(double surely, double xi) : sure(surely), enough(surely - std::log1p(-xi)) {}
+  Spectrum transmittance(const Spectrum& depth) const {
+    const double least = std::min({depth[0], depth[1], depth[2]}), lifted = std::max(0.0, least - sure);
+    return least > enough ? Spectrum{} : map(depth, [&](double x) { return std::exp(lifted - x); });
+  }
+};
+
 /// Weight of the strategy of density a against one of density b (balance heuristic; Veach 1997).
 double balance(double a, double b) { return a / (a + b); }
 
@@ -74,12 +91,9 @@ struct PathTracer::State {
   /// for, and count for more then.
   Spectrum through_air(const Ray& ray, double distance, RandomStream& random) {
     if (!context.winding) return transmittance(context.medium, ray, distance, shadow);
-    constexpr double sure = 2.5;
-    const double enough = sure - std::log1p(-random.next());
-    if (stretches_along(context.medium, ray, distance, shadow, enough) < distance) return {};
-    const Spectrum depth = optical_depth(shadow, distance);
-    const double least = std::min({depth[0], depth[1], depth[2]}), lifted = std::max(0.0, least - sure);
-    return least > enough ? Spectrum{} : map(depth, [&](double x) { return std::exp(lifted - x); });
+    const AirDepth air(1.5, random.next());
+    if (stretches_along(context.medium, ray, distance, shadow, air.enough) < distance) return {};
+    return air.transmittance(optical_depth(shadow, distance));
   }
 
   /// Transmittance of medium and surfaces over a stretch of a ray; zero when a surface is in the way.
@@ -108,6 +122,17 @@ struct PathTracer::State {
     return context.lights.lamps.empty() && context.dense_air.lies_ahead(ray, extinction, end);
   }
 
+  /// A flight of such a ray. Sets `stretches` to what is needed at its end.
+  Flight dense_flight(const Ray& ray, double end, const Spectrum& beta, double xi_channel, double xi_depth,
+                      RandomStream& random) {
+    if (context.winding) {
+      const double seed = random.next();
+      return sample_null_flight(context.medium, ray, end, beta, xi_channel, xi_depth, {seed, random.next()}, stretches);
+    }
+    stretches_along(context.medium, ray, end, stretches, -std::log1p(-xi_depth));
+    return sample_flight(stretches, beta, end, false, xi_channel, xi_depth);
+  }
+
   PathSample trace(const Ray& ray, double distance, RandomStream& random, bool sees_sun) {
     out = {};
     Walk walk;
@@ -117,8 +142,12 @@ struct PathTracer::State {
     double end = hit ? hit->t : infinity;
     if (distance < end) hit.reset();
     end = std::min(end, distance);
-    stretches_along(context.medium, ray, end, stretches);
-    out.transmittance = transmittance(stretches, end);
+    const double xi_depth = random.next(), xi_channel = random.next();
+    const AirDepth whole(invisible_depth, random.next());
+    const double reach = stretches_along(context.medium, ray, end, stretches,
+                                         context.winding ? std::max(whole.enough, -std::log1p(-xi_depth)) : infinity);
+    const bool ends_in_air = reach < end;
+    out.transmittance = ends_in_air ? Spectrum{} : whole.transmittance(optical_depth(stretches, end));
     if (may_go_on(walk)) lamps_along(walk, end, random);
     // Both ends of the eye's ray are followed: what it sees through the medium, and a collision forced to happen in it.
     Walk through = walk;
@@ -135,13 +164,12 @@ struct PathTracer::State {
     if (!may_go_on(walk)) return out;
     stretches = seen;
     random.begin_branch(2);
-    suns_along(walk, end, random);
+    if (!ends_in_air) suns_along(walk, end, random);
     random.begin_branch(3);
-    const double xi_depth = random.next(), xi_channel = random.next();
-    const Flight flight = sample_flight(stretches, walk.beta, end, true, xi_channel, xi_depth);
+    const Flight flight = sample_flight(stretches, walk.beta, end, !ends_in_air, xi_channel, xi_depth);
     if (flight.t < end) {
       walk.beta *= flight.weight;
-      if (collide(walk, flight.t, false, random)) follow(walk, random);
+      if (collide(walk, flight.t, ends_in_air, random)) follow(walk, random);
     }
     return out;
   }
@@ -153,14 +181,16 @@ struct PathTracer::State {
       const double end = hit ? hit->t : infinity;
       const bool dense = is_dense(walk.ray, walk.extinction, end);
       walk.been_in_dense = walk.been_in_dense || dense;
-      double xi_depth = dense ? random.next() : 0.0;
-      stretches_along(context.medium, walk.ray, end, stretches, dense ? -std::log1p(-xi_depth) : infinity);
-      if (may_go_on(walk)) {
-        lamps_along(walk, end, random);
-        if (!dense) suns_along(walk, end, random);
+      if (!dense) {
+        stretches_along(context.medium, walk.ray, end, stretches);
+        if (may_go_on(walk)) {
+          lamps_along(walk, end, random);
+          suns_along(walk, end, random);
+        }
       }
-      if (!dense) xi_depth = random.next();
-      const Flight flight = sample_flight(stretches, walk.beta, end, false, random.next(), xi_depth);
+      const double xi_depth = random.next(), xi_channel = random.next();
+      const Flight flight = dense ? dense_flight(walk.ray, end, walk.beta, xi_channel, xi_depth, random)
+                                  : sample_flight(stretches, walk.beta, end, false, xi_channel, xi_depth);
       walk.beta *= flight.weight;
       if (is_zero(walk.beta)) return;
       if (flight.t < end) {
@@ -220,10 +250,12 @@ struct PathTracer::State {
 
   /// Sunlight scattered toward the walk from its segment [0, end], whatever happens to the walk later: in thin air few
   /// walks collide, and those that do would bring all of it. Shafts are light or shadow, so their share of the eye's
-  /// segment is measured at several places, spread evenly over the chances of a collision.
+  /// segment is measured at two places, spread evenly over the chances of a collision; in opaque air other noise is
+  /// larger.
   void suns_along(const Walk& walk, double end, RandomStream& random) {
     if (stretches.empty() || context.lights.suns.empty()) return;
-    const int places = walk.depth() == 0 ? 8 : 1;
+    const bool shafts_show = walk.depth() == 0 && largest(out.transmittance) > opaque;
+    const int places = !shafts_show ? 1 : context.beams.empty() ? 2 : 4;
     for (int i = 0; i < places; ++i) {
       const double xi_channel = random.next(), xi = (i + random.next()) / places;
       const Flight flight = sample_flight(stretches, walk.beta, end, true, xi_channel, xi);
@@ -299,9 +331,10 @@ struct PathTracer::State {
     const double looks = dense ? worth_looking(f * (own * weight)) : 1.0;
     if (dense && random.next() >= looks) return;
     const double xi_channel = random.next(), xi_depth = random.next();
-    stretches_along(context.medium, ray, end, stretches, dense ? -std::log1p(-xi_depth) : infinity);
-    if (stretches.empty()) return;
-    const Flight flight = sample_flight(stretches, f, end, !dense, xi_channel, xi_depth);
+    if (!dense) stretches_along(context.medium, ray, end, stretches);
+    if (!dense && stretches.empty()) return;
+    const Flight flight = dense ? dense_flight(ray, end, f, xi_channel, xi_depth, random)
+                                : sample_flight(stretches, f, end, true, xi_channel, xi_depth);
     if (!(flight.t < end)) return;
     const Vector place = ray.at(flight.t);
     beside.set(context.medium, stretches, flight.t);

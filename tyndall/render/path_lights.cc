@@ -10,6 +10,15 @@ double one_minus_cos(const SunLight& sun) {
   return 2.0 * std::sin(half) * std::sin(half);
 }
 
+/// Whether air without end lets nothing in from infinitely far.
+bool is_endless(const Medium& medium) {
+  Spectrum extinction;
+  for (const Species& species : medium.species) {
+    if (species.profiles.empty()) extinction += species.extinction();
+  }
+  return std::min({extinction[0], extinction[1], extinction[2]}) > 0.0;
+}
+
 }  // namespace
 
 double sun_solid_angle(const SunLight& sun) { return 2.0 * std::numbers::pi * one_minus_cos(sun); }
@@ -27,8 +36,9 @@ Spectrum sun_disc(const SunLight& sun, const Vector& direction) {
 }
 
 PathLights::PathLights(const Scene& scene)
-    : suns(scene.suns),
-      surroundings_(scene.environment ? &*scene.environment : nullptr),
+    : suns(is_endless(scene.medium) ? std::vector<SunLight>{} : scene.suns),
+      scene_(scene),
+      surroundings_(scene.environment && !is_endless(scene.medium) ? &*scene.environment : nullptr),
       panorama_(surroundings_),
       emitters_(scene) {
   for (const PointLight& point : scene.points) lamps.push_back({point.position, point.intensity});
@@ -89,11 +99,11 @@ double PathLights::environment_density(const Vector& direction) const {
   return panorama_.empty() ? 0.0 : panorama_.density(direction);
 }
 
-Spectrum PathLights::emission(const Hit& hit) const { return emitted(*hit.material, hit.front); }
+Spectrum PathLights::emission(const Hit& hit) const { return emitted(scene_, *hit.material, hit.at, hit.front); }
 
 double PathLights::emitter_density(const Hit& hit, const Ray& ray) const {
   const double facing = std::fabs(dot(hit.geometric_normal, ray.direction));
-  return facing > 0.0 ? emitters_.density(hit.mesh, hit.triangle) * hit.t * hit.t / facing : 0.0;
+  return facing > 0.0 ? emitters_.density(hit.at.mesh, hit.at.triangle) * hit.t * hit.t / facing : 0.0;
 }
 
 }  // namespace tyndall

@@ -114,6 +114,7 @@ class PathLights {
   double emitter_density(const Hit& hit, const Ray& ray) const;
 
  private:
+  const Scene& scene_;
   const EnvironmentLight* surroundings_;
   PanoramaSampler panorama_;
   Emitters emitters_;

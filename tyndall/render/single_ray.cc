@@ -55,7 +55,7 @@ Spectrum SingleRay::surface(bool sources) {
   Spectrum seen;
   if (hit_) {
     seen = reflected(*hit_, -ray_.direction);
-    if (sources) seen += emitted(*hit_->material, hit_->front);
+    if (sources) seen += emitted(context_.geometry.scene(), *hit_->material, hit_->at, hit_->front);
   } else if (!sources) {
     seen = context_.sky.smooth(ray_.direction);
   } else {

@@ -5,8 +5,27 @@
 #include <numbers>
 
 namespace tyndall {
+namespace {
 
-Emitters::Emitters(const Scene& scene) {
+/// Mean over a triangle, at the centres of 64 equal triangles where it has a map.
+Spectrum mean_emission(const Scene& scene, const Material& material, std::size_t mesh, std::size_t triangle) {
+  constexpr int parts = 8;
+  if (material.emission_map.texture < 0) return material.emission;
+  Spectrum total;
+  for (int i = 0; i < parts; ++i) {
+    for (int j = 0; j < parts; ++j) {
+      const bool beyond = i + j >= parts;  // the diagonal: those are the turned ones, one less in every row
+      const double third = beyond ? 2.0 / 3.0 : 1.0 / 3.0;
+      const double u = beyond ? parts - 1 - i : i, v = beyond ? parts - 1 - j : j;
+      total += emission_at(scene, material, {mesh, triangle, (u + third) / parts, (v + third) / parts});
+    }
+  }
+  return total / static_cast<double>(parts * parts);
+}
+
+}  // namespace
+
+Emitters::Emitters(const Scene& scene) : scene_(scene) {
   double total = 0.0;
   for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
     first_of_mesh_.push_back(triangles_.size());
@@ -23,10 +42,12 @@ Emitters::Emitters(const Scene& scene) {
       const Vector a = corner(index[0]), ab = corner(index[1]) - a, ac = corner(index[2]) - a;
       const Vector n = cross(ab, ac);
       const double twice = length(n);
-      const double weight = 0.5 * twice * mean(material.emission) * (material.double_sided ? 2.0 : 1.0);
+      if (!(twice > 0.0)) continue;
+      const Spectrum emission = mean_emission(scene, material, m, t);
+      const double weight = 0.5 * twice * mean(emission) * (material.double_sided ? 2.0 : 1.0);
       if (!(weight > 0.0) || !std::isfinite(weight)) continue;
-      triangles_.push_back({a, ab, ac, n / twice, 0.5 * twice, material.emission, material.double_sided, m, t});
-      power_ += material.emission * (0.5 * twice * std::numbers::pi * (material.double_sided ? 2.0 : 1.0));
+      triangles_.push_back({a, ab, ac, n / twice, 0.5 * twice, emission, material.double_sided, m, t});
+      power_ += emission * (0.5 * twice * std::numbers::pi * (material.double_sided ? 2.0 : 1.0));
       total += weight;
       cumulative_.push_back(total);
     }
@@ -45,7 +66,10 @@ EmitterSample Emitters::sample(double choice, double u, double v) const {
   const EmissiveTriangle& t = triangles_[i];
   // Uniform in area (Shirley and Chiu 1997's square root): b = 1 - sqrt(u) for the first corner.
   const double root = std::sqrt(u);
-  return {t.a + t.ab * (root * (1.0 - v)) + t.ac * (root * v), density_[i], &t};
+  const SurfacePlace at{t.mesh, t.triangle, root * (1.0 - v), root * v};
+  const int material = scene_.meshes[t.mesh].material;
+  return {t.a + t.ab * at.u + t.ac * at.v, density_[i], &t,
+          emission_at(scene_, scene_.materials[static_cast<std::size_t>(material)], at)};
 }
 
 double Emitters::density(std::size_t mesh, std::size_t triangle) const {

@@ -34,7 +34,8 @@ Scene lamps() {
 }
 
 TEST(Emitters, AreFoundWithTheirPower) {
-  const Emitters emitters(lamps());
+  const Scene scene = lamps();
+  const Emitters emitters(scene);
   ASSERT_EQ(emitters.triangles().size(), 3U);
   EXPECT_EQ(emitters.triangles()[0].area, 8.0);
   EXPECT_EQ(emitters.triangles()[0].normal, (Vector{0, 0, 1}));
@@ -43,11 +44,13 @@ TEST(Emitters, AreFoundWithTheirPower) {
   const double small = 0.5 + emitters.triangles()[2].area;
   EXPECT_NEAR(emitters.power()[0], std::numbers::pi * (8 * 1 + 2 * 30 * small), 1e-9);
   EXPECT_NEAR(emitters.power()[2], std::numbers::pi * (8 * 3 + 2 * 30 * small), 1e-9);
-  EXPECT_TRUE(Emitters(Scene{}).empty());
+  const Scene dark;
+  EXPECT_TRUE(Emitters(dark).empty());
 }
 
 TEST(Emitters, DensitiesIntegrateToOneAndZeroElsewhere) {
-  const Emitters emitters(lamps());
+  const Scene scene = lamps();
+  const Emitters emitters(scene);
   double total = 0.0;
   for (const EmissiveTriangle& t : emitters.triangles()) total += emitters.density(t.mesh, t.triangle) * t.area;
   EXPECT_NEAR(total, 1.0, 1e-14);
@@ -59,7 +62,8 @@ TEST(Emitters, DensitiesIntegrateToOneAndZeroElsewhere) {
 }
 
 TEST(Emitters, SamplesFollowTheDensityUniformlyOverTriangles) {
-  const Emitters emitters(lamps());
+  const Scene scene = lamps();
+  const Emitters emitters(scene);
   std::mt19937 random(1);
   std::uniform_real_distribution<double> uniform;
   constexpr int samples = 300000;
@@ -95,9 +99,36 @@ TEST(Emitters, SidesShineAsTheirMaterialSays) {
   s = emitters.sample(0.999999, 0.5, 0.5);
   EXPECT_EQ(s.emitter->mesh, 3U);
   EXPECT_EQ(s.radiance_toward({0, 0, -1}), Spectrum::grey(30));
-  EXPECT_EQ(emitted(scene.materials[0], true), (Spectrum{{1, 2, 3}}));
-  EXPECT_EQ(emitted(scene.materials[0], false), Spectrum{});
-  EXPECT_EQ(emitted(scene.materials[2], false), Spectrum::grey(30));
+  EXPECT_EQ(emitted(scene, scene.materials[0], {0, 1}, true), (Spectrum{{1, 2, 3}}));
+  EXPECT_EQ(emitted(scene, scene.materials[0], {0, 1}, false), Spectrum{});
+  EXPECT_EQ(emitted(scene, scene.materials[2], {3, 0}, false), Spectrum::grey(30));
+}
+
+/// A picture of one bright texel among dark ones on the large triangle.
+TEST(Emitters, MapsShineWhereTheyAreBright) {
+  Scene scene = lamps();
+  scene.textures.push_back({8, 8, std::vector<std::array<float, 3>>(64), Wrap::clamp, Wrap::clamp, {}});
+  scene.textures[0].color[2 * 8 + 2] = {1.0F, 0.5F, 0.0F};
+  scene.materials[0].emission_map = {0, 0};
+  scene.meshes[0].uvs = {{{0, 0}, {1, 0}, {0, 1}}};
+  const Emitters emitters(scene);
+  const EmissiveTriangle& large = emitters.triangles()[0];
+  // A tent whose peak lies at (2.5, 2.5) / 8 and which ends a texel from there: all of it in the triangle, and its mean
+  // is 1/64 of the square's, 1/32 of the triangle's.
+  EXPECT_NEAR(large.radiance[0], 1.0 / 32.0, 0.005);
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> uniform;
+  Spectrum sum;
+  constexpr int samples = 200000;
+  const double chance = emitters.density(0, 1) * large.area;
+  for (int i = 0; i < samples; ++i) {
+    const EmitterSample s = emitters.sample(uniform(random) * chance, uniform(random), uniform(random));
+    ASSERT_EQ(s.emitter->mesh, 0U);
+    sum += s.radiance_toward({0, 0, 1});
+  }
+  EXPECT_NEAR(sum[0] / samples, 1.0 / 32.0, 0.002);  // standard error 3e-4
+  EXPECT_NEAR(sum[1] / samples, 2.0 * 0.5 / 32.0, 0.002);
+  EXPECT_EQ(sum[2], 0.0);
 }
 
 }  // namespace

@@ -10,20 +10,27 @@ void add_texture(Digest& digest, const Texture& texture) {
        {texture.width, texture.height, static_cast<int>(texture.wrap_u), static_cast<int>(texture.wrap_v)})
     add_value(digest, x);
   add_value(digest, texture.color);
+  add_value(digest, texture.alpha);
 }
 
 void add_material(Digest& digest, const Material& material) {
   add_value(digest, material.base_color);
-  add_value(digest, material.base_color_texture);
-  add_value(digest, material.metallic);
-  add_value(digest, material.roughness);
   add_value(digest, material.emission);
+  for (const double x : {material.alpha, material.alpha_cutoff, material.metallic, material.roughness, material.ior,
+                         material.normal_scale})
+    add_value(digest, x);
+  for (const Map& map : {material.color_map, material.roughness_map, material.emission_map, material.normal_map}) {
+    add_value(digest, map.texture);
+    add_value(digest, map.uv_set);
+  }
+  add_value(digest, material.alpha_mode);
   add_value(digest, material.double_sided);
 }
 
 void add_mesh(Digest& digest, const Mesh& mesh) {
   add_value(digest, mesh.positions);
   add_value(digest, mesh.normals);
+  add_value(digest, mesh.tangents);
   add_value(digest, mesh.uvs);
   add_value(digest, mesh.triangles);
   add_value(digest, mesh.material);

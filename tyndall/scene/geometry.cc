@@ -17,6 +17,7 @@
 #include <string>
 
 #include "tyndall/geometry/shape.h"
+#include "tyndall/number/digest.h"
 
 namespace tyndall {
 namespace {
@@ -60,56 +61,29 @@ void confine(double& u, double& v) {
   }
 }
 
-double wrapped(double x, Wrap wrap) {
-  if (!std::isfinite(x)) return 0.0;
-  if (wrap == Wrap::clamp) return std::clamp(x, 0.0, 1.0);
-  if (wrap == Wrap::repeat) return x - std::floor(x);
-  const double twice = x - 2.0 * std::floor(0.5 * x);
-  return twice <= 1.0 ? twice : 2.0 - twice;
-}
-
-/// The texel that a place beyond the edge shows.
-std::size_t texel(int i, int count, Wrap wrap) {
-  if (wrap == Wrap::repeat) i = (i + count) % count;
-  return static_cast<std::size_t>(std::clamp(i, 0, count - 1));
-}
-
-/// Bilinear lookup, glTF's convention: (0, 0) is the outer corner of the first texel of the top row.
-Spectrum color_at(const Texture& texture, double u, double v) {
-  const double x = wrapped(u, texture.wrap_u) * texture.width - 0.5;
-  const double y = wrapped(v, texture.wrap_v) * texture.height - 0.5;
-  const int column = static_cast<int>(std::floor(x)), row = static_cast<int>(std::floor(y));
-  const double right = x - column, below = y - row;
-  Spectrum color;
-  for (int j = 0; j < 2; ++j) {
-    for (int i = 0; i < 2; ++i) {
-      const double weight = (i == 1 ? right : 1.0 - right) * (j == 1 ? below : 1.0 - below);
-      const auto& c =
-          texture.color[texel(row + j, texture.height, texture.wrap_v) * static_cast<std::size_t>(texture.width) +
-                        texel(column + i, texture.width, texture.wrap_u)];
-      color += Spectrum{{c[0], c[1], c[2]}} * weight;
-    }
-  }
-  return color;
-}
-
 }  // namespace
 
 struct Geometry::Index {
   const Scene& scene;
   RTCDevice device = nullptr;
   RTCScene embree = nullptr;
-  Box box;             // of the scene, a little enlarged; low > high when there is nothing
-  Vector center;       // Embree's origin
-  double scale = 1.0;  // Embree units per metre, a power of two
-  double size = 0.0;   // the largest coordinate, and the largest extent
-  double slack = 0.0;  // [m] by which the float ray is longer than the true one, at both ends
-  Material plain;      // of meshes without a material
+  Box box;                  // of the scene, a little enlarged; low > high when there is nothing
+  Vector center;            // Embree's origin
+  double scale = 1.0;       // Embree units per metre, a power of two
+  double size = 0.0;        // the largest coordinate, and the largest extent
+  double slack = 0.0;       // [m] by which the float ray is longer than the true one, at both ends
+  Material plain;           // of meshes without a material
+  std::vector<bool> holed;  // by mesh: whether its material may let rays through
 
   explicit Index(const Scene& s) : scene(s) {
     plain.metallic = 0.0;
     plain.roughness = 1.0;
+    for (const Mesh& mesh : s.meshes) holed.push_back(material_of(mesh).alpha_mode != AlphaMode::opaque);
   }
+  const Material& material_of(const Mesh& mesh) const {
+    return mesh.material < 0 ? plain : scene.materials[static_cast<std::size_t>(mesh.material)];
+  }
+  bool is_there(SurfacePlace at, const Ray& ray) const;
   ~Index() {
     if (embree != nullptr) rtcReleaseScene(embree);
     if (device != nullptr) rtcReleaseDevice(device);
@@ -233,7 +207,26 @@ void Geometry::Index::filter(const RTCFilterFunctionNArguments* arguments) {
     const double slope = std::fabs(dot(query.ray.direction, triangle.normal)) / length(triangle.normal);
     counts = std::min(met->t, query.end - met->t) * slope > query.height;
   }
+  if (counts && query.index->holed[hit->geomID]) {
+    counts = query.index->is_there({hit->geomID, hit->primID, met->u, met->v}, query.ray);
+  }
   if (!counts) arguments->valid[0] = 0;
+}
+
+/// Whether a surface of partial alpha stops a ray. Where it is the part of the surface that is there, chance decides: a
+/// hash of the ray and the triangle, the same whenever and wherever the same ray asks.
+bool Geometry::Index::is_there(SurfacePlace at, const Ray& ray) const {
+  confine(at.u, at.v);
+  const Mesh& mesh = scene.meshes[at.mesh];
+  const Material& material = material_of(mesh);
+  const double alpha = alpha_at(scene, material, at);
+  if (material.alpha_mode == AlphaMode::mask) return alpha >= material.alpha_cutoff;
+  Digest digest;
+  add_value(digest, ray.origin);
+  add_value(digest, ray.direction);
+  digest.add(std::uint64_t{at.mesh});
+  digest.add(std::uint64_t{at.triangle});
+  return static_cast<double>(digest.value() >> 11) * 0x1p-53 < alpha;
 }
 
 bool Geometry::Index::any(const Ray& ray, double begin, double end, double height) const {
@@ -261,29 +254,33 @@ std::optional<Hit> Geometry::intersect(const Ray& ray, double end) const {
   const auto met = crossing(triangle, ray);
   if (!met) return std::nullopt;
   Hit hit;
-  hit.mesh = found.geomID;
-  hit.triangle = found.primID;
   hit.t = met->t;
-  hit.u = met->u;
-  hit.v = met->v;
-  confine(hit.u, hit.v);
+  hit.at = {found.geomID, found.primID, met->u, met->v};
+  confine(hit.at.u, hit.at.v);
+  const auto [m, index, u, v] = hit.at;
   // On the triangle rather than on the ray: shadow rays then start from the surface to the last digit.
-  hit.point = triangle.a + triangle.ab * hit.u + triangle.ac * hit.v;
+  hit.point = triangle.a + triangle.ab * u + triangle.ac * v;
   hit.front = dot(ray.direction, triangle.normal) < 0.0;
   const double side = hit.front ? 1.0 : -1.0;
   hit.geometric_normal = normalized(triangle.normal) * side;
   hit.shading_normal = hit.geometric_normal;
   if (!mesh.normals.empty()) {
-    const auto& corner = mesh.triangles[hit.triangle];
-    const Vector smooth = (vector_of(mesh.normals[corner[0]]) * (1.0 - hit.u - hit.v) +
-                           vector_of(mesh.normals[corner[1]]) * hit.u + vector_of(mesh.normals[corner[2]]) * hit.v) *
+    const auto& corner = mesh.triangles[index];
+    const Vector smooth = (vector_of(mesh.normals[corner[0]]) * (1.0 - u - v) + vector_of(mesh.normals[corner[1]]) * u +
+                           vector_of(mesh.normals[corner[2]]) * v) *
                           side;
     // A smooth normal that looks away from the ray, or from its own triangle, shades nothing: the true one does.
     if (dot(smooth, ray.direction) < 0.0 && dot(smooth, hit.geometric_normal) > 0.0) {
       hit.shading_normal = normalized(smooth);
     }
   }
-  hit.material = mesh.material < 0 ? &index_->plain : &index_->scene.materials[static_cast<std::size_t>(mesh.material)];
+  hit.material = &index_->material_of(mesh);
+  if (hit.material->normal_map.texture >= 0) {
+    const Vector bent = mapped_normal(index_->scene, *hit.material, hit.at, hit.shading_normal * side) * side;
+    // One that would look away from the ray is turned toward it until it just does not.
+    const double seen = -dot(bent, ray.direction);
+    hit.shading_normal = seen >= 0.01 ? bent : normalized(bent - ray.direction * (0.01 - seen));
+  }
   return hit;
 }
 
@@ -303,18 +300,6 @@ Vector Geometry::leave(const Vector& point, const Vector& normal) const {
   return point + normal * (1e-10 * std::max(index_->size, length(point)));
 }
 
-Spectrum Geometry::base_color(const Hit& hit) const {
-  Spectrum color = hit.material->base_color;
-  const Mesh& mesh = index_->scene.meshes[hit.mesh];
-  if (hit.material->base_color_texture < 0 || mesh.uvs.empty()) return color;
-  const auto& corner = mesh.triangles[hit.triangle];
-  std::array<double, 2> uv{};
-  for (std::size_t i = 0; i < 2; ++i) {
-    uv[i] = (1.0 - hit.u - hit.v) * mesh.uvs[corner[0]][i] + hit.u * mesh.uvs[corner[1]][i] +
-            hit.v * mesh.uvs[corner[2]][i];
-  }
-  return color *
-         color_at(index_->scene.textures[static_cast<std::size_t>(hit.material->base_color_texture)], uv[0], uv[1]);
-}
+const Scene& Geometry::scene() const { return index_->scene; }
 
 }  // namespace tyndall

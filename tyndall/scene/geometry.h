@@ -3,23 +3,23 @@
 #include <memory>
 #include <optional>
 
-#include "tyndall/scene/scene.h"
+#include "tyndall/scene/surface.h"
 
 namespace tyndall {
 
-/// A point on a surface. Normals are unit vectors on the side the ray came from; `front` tells whether that is the
-/// triangle's counter-clockwise side.
+/// A point on a surface. Normals are unit vectors on the side the ray came from, the shading normal bent by a normal
+/// map; `front` tells whether that is the triangle's counter-clockwise side.
 struct Hit {
   double t = 0.0;
   Vector point, geometric_normal, shading_normal;
   bool front = true;
-  std::size_t mesh = 0, triangle = 0;
-  double u = 0.0, v = 0.0;  // barycentric weights of the triangle's second and third vertex
+  SurfacePlace at;
   const Material* material = nullptr;
 };
 
 /// The ray-tracing index of a scene. Holds a reference to the scene, which must outlive it. Safe to query from many
-/// threads.
+/// threads. Surfaces are not there where their alpha is below a mask's cutoff; of a blended surface each ray meets the
+/// part that alpha says, by chance, but the same ray always the same.
 class Geometry {
  public:
   explicit Geometry(const Scene& scene);
@@ -36,8 +36,8 @@ class Geometry {
   /// `point` moved off its surface along `normal`, far enough for a ray from there to miss that surface.
   Vector leave(const Vector& point, const Vector& normal) const;
 
-  /// Base colour at a hit, texture included; linear.
-  Spectrum base_color(const Hit& hit) const;
+  /// What it is the index of.
+  const Scene& scene() const;
 
  private:
   struct Index;

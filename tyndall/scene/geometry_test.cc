@@ -65,7 +65,7 @@ TEST(Geometry, EmptyScenesMeetNothing) {
   Scene hollow;
   hollow.meshes.push_back(Mesh{});
   hollow.meshes.push_back(square({0, 0, 0}, 1));
-  EXPECT_EQ(Geometry(hollow).intersect({{0.1, 0, 5}, {0, 0, -1}})->mesh, 1U);
+  EXPECT_EQ(Geometry(hollow).intersect({{0.1, 0, 5}, {0, 0, -1}})->at.mesh, 1U);
 }
 
 TEST(Geometry, HitsSayWhereAndWhatAndWhichSide) {
@@ -84,21 +84,21 @@ TEST(Geometry, HitsSayWhereAndWhatAndWhichSide) {
   EXPECT_EQ(front->geometric_normal, (Vector{0, 0, 1}));
   EXPECT_EQ(front->shading_normal, (Vector{0, 0, 1}));
   EXPECT_TRUE(front->front);
-  EXPECT_EQ(front->mesh, 0U);
-  EXPECT_EQ(front->triangle, 0U);
+  EXPECT_EQ(front->at.mesh, 0U);
+  EXPECT_EQ(front->at.triangle, 0U);
   EXPECT_EQ(front->material->metallic, 0.0);
   EXPECT_EQ(front->material->roughness, 1.0);
   const auto& t = scene.meshes[0].triangles[0];
   const auto& p = scene.meshes[0].positions;
-  EXPECT_EQ((1 - front->u - front->v) * p[t[0]][0] + front->u * p[t[1]][0] + front->v * p[t[2]][0], 0.5);
+  EXPECT_EQ((1 - front->at.u - front->at.v) * p[t[0]][0] + front->at.u * p[t[1]][0] + front->at.v * p[t[2]][0], 0.5);
 
   const auto back = geometry.intersect({{-0.5, 0.25, -7}, {0, 0, 1}});
   ASSERT_TRUE(back);
   EXPECT_EQ(back->t, 5.0);
   EXPECT_EQ(back->geometric_normal, (Vector{0, 0, -1}));
   EXPECT_FALSE(back->front);
-  EXPECT_EQ(back->mesh, 1U);
-  EXPECT_EQ(back->triangle, 1U);
+  EXPECT_EQ(back->at.mesh, 1U);
+  EXPECT_EQ(back->at.triangle, 1U);
   EXPECT_EQ(back->material->name, "paint");
 }
 
@@ -210,12 +210,12 @@ TEST(Geometry, HitsLieOnTheirTriangles) {
     ASSERT_TRUE(hit);
     EXPECT_TRUE(hit->front);
     EXPECT_LT(length(hit->point - ray.at(hit->t)), 1e-5);
-    const auto& corner = scene.meshes[0].triangles[hit->triangle];
+    const auto& corner = scene.meshes[0].triangles[hit->at.triangle];
     const auto& a = scene.meshes[0].positions[corner[0]];
     EXPECT_NEAR(dot(hit->point - Vector{a[0], a[1], a[2]}, hit->geometric_normal), 0.0, 1e-12);
-    EXPECT_GE(hit->u, 0.0);
-    EXPECT_GE(hit->v, 0.0);
-    EXPECT_LE(hit->u + hit->v, 1.0 + 1e-15);
+    EXPECT_GE(hit->at.u, 0.0);
+    EXPECT_GE(hit->at.v, 0.0);
+    EXPECT_LE(hit->at.u + hit->at.v, 1.0 + 1e-15);
     EXPECT_LT(dot(hit->shading_normal, d), 0.0);
     EXPECT_NEAR(length(hit->shading_normal), 1.0, 1e-12);
   }
@@ -284,43 +284,6 @@ TEST(Geometry, SmoothNormalsNeverFaceAwayFromTheRay) {
   const auto below = geometry.intersect({{0.2, 0.1, -0.5}, {0, 0, 1}});
   EXPECT_NEAR(below->shading_normal.x, -0.8, 1e-6);
   EXPECT_EQ(geometry.intersect({{0.2, 0.1, -0.5}, {0, 0, -1}})->shading_normal, (Vector{0, 0, 1})) << "zero normals";
-}
-
-TEST(Geometry, BaseColorsAreInterpolatedAndWrapped) {
-  Scene scene;
-  scene.textures.push_back({2, 2, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}}, Wrap::repeat, Wrap::repeat});
-  scene.materials.push_back({});
-  scene.materials[0].base_color = {{0.5, 1, 1}};
-  scene.materials[0].base_color_texture = 0;
-  Mesh mesh = square({0, 0, 0}, 1);
-  mesh.uvs = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};  // v points down, as in glTF
-  mesh.material = 0;
-  scene.meshes.push_back(mesh);
-  const auto at = [&](double x, double y) {
-    const Geometry geometry(scene);
-    const auto hit = geometry.intersect({{x, y, 1}, {0, 0, -1}});
-    const Spectrum c = geometry.base_color(*hit);
-    return std::array{c[0], c[1], c[2]};
-  };
-  const auto expect = [&](double x, double y, std::array<double, 3> color) {
-    const auto found = at(x, y);
-    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(found[i], color[i], 2e-6) << x << ", " << y;
-  };
-  expect(-0.5, 0.5, {0.5, 0, 0});          // centre of the first texel: top left
-  expect(0.5, 0.5, {0, 1, 0});             // top right
-  expect(-0.5, -0.5, {0, 0, 1});           // bottom left
-  expect(0, 0, {0.25, 0.5, 0.5});          // between all four
-  expect(-0.999999, 0.5, {0.25, 0.5, 0});  // the left edge shows half of what is right
-  scene.textures[0].wrap_u = Wrap::clamp;
-  expect(-0.999999, 0.5, {0.5, 0, 0});
-  scene.meshes[0].uvs = {{1.25F, 0.25F}, {1.25F, 0.25F}, {1.25F, 0.25F}, {1.25F, 0.25F}};
-  expect(0.3, 0.3, {0, 1, 0});
-  scene.textures[0].wrap_u = Wrap::mirror;
-  expect(0.3, 0.3, {0, 1, 0});
-  scene.textures[0].wrap_u = Wrap::repeat;
-  expect(0.3, 0.3, {0.5, 0, 0});
-  scene.meshes[0].uvs.clear();
-  expect(0.3, 0.3, {0.5, 1, 1});
 }
 
 TEST(Geometry, LeavesTheProgramsArithmeticAlone) {

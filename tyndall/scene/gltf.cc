@@ -254,17 +254,29 @@ void Reading::add_primitive(const tinygltf::Primitive& primitive, const std::str
   }
   const MaterialUse& use = materials_.use(primitive.material, pointer + "/material");
   mesh.material = use.index;
-  if (use.index >= 0 && scene_.materials[static_cast<std::size_t>(use.index)].base_color_texture >= 0) {
-    const std::string key = "TEXCOORD_" + std::to_string(use.texture_set);
+  for (const UvUse& wanted : use.uv_sets) {
+    auto& uvs = mesh.uvs.emplace_back();
+    const std::string key = "TEXCOORD_" + std::to_string(wanted.texture_set);
     if (attribute(key) < 0) {
       ignored_.insert("textures of meshes without texture coordinates");
-    } else {
-      mesh.uvs = read_vectors<2>(gltf_, attribute(key), attributes + "/" + key);
-      check_count(mesh.uvs.size(), key);
-      for (auto& uv : mesh.uvs) {
-        const Vector t = use.texture_map.point({uv[0], uv[1], 0.0});
-        uv = {static_cast<float>(t.x), static_cast<float>(t.y)};
-      }
+      continue;
+    }
+    uvs = read_vectors<2>(gltf_, attribute(key), attributes + "/" + key);
+    check_count(uvs.size(), key);
+    for (auto& uv : uvs) {
+      const Vector t = wanted.transform.point({uv[0], uv[1], 0.0});
+      uv = {static_cast<float>(t.x), static_cast<float>(t.y)};
+    }
+  }
+  if (use.bends_normals && attribute("TANGENT") >= 0) {
+    mesh.tangents = read_vectors<4>(gltf_, attribute("TANGENT"), attributes + "/TANGENT");
+    check_count(mesh.tangents.size(), "TANGENT");
+    const float side = to_world.determinant() < 0.0 ? -1.0F : 1.0F;
+    for (auto& t : mesh.tangents) {
+      const Vector m = to_world.vector({t[0], t[1], t[2]});
+      const double size = length(m);
+      const Vector u = size > 0.0 && std::isfinite(size) ? m / size : Vector{};
+      t = {static_cast<float>(u.x), static_cast<float>(u.y), static_cast<float>(u.z), t[3] * side};
     }
   }
   scene_.meshes.push_back(std::move(mesh));
@@ -327,7 +339,7 @@ void Reading::add_camera(int index, const Transform& to_world, const std::string
 void Reading::note_unsupported() {
   for (const std::string& name : model_.extensionsUsed) {
     if (name != "KHR_lights_punctual" && name != "KHR_materials_emissive_strength" && name != "KHR_texture_transform" &&
-        name != "KHR_mesh_quantization") {
+        name != "KHR_mesh_quantization" && name != "KHR_materials_ior") {
       ignored_.insert("the extension " + in_quotes(name));
     }
   }

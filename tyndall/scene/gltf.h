@@ -30,11 +30,11 @@ struct GltfContent {
 ///
 /// Done: node trees by matrix or translation, rotation, scale; triangle lists, strips and fans; sparse and quantised
 /// accessors; KHR_lights_punctual with candela, lux read 1:1 as W/sr, W/m^2 (`range` is ignored: light does not end);
-/// emission with KHR_materials_emissive_strength, nit read 1:1 as W/(m^2 sr); base colour with one PNG or JPEG texture
-/// and KHR_texture_transform; metallic and roughness; animations of nodes (poses_at()). Textures of emission, metalness
-/// and roughness count by their mean. Not done, and said in scene.warnings: skins, morphs, transparency, normal and
-/// occlusion maps, vertex colours, points and lines, orthographic cameras, optional extensions. A required extension
-/// that is not supported is a Fault.
+/// emission with KHR_materials_emissive_strength, nit read 1:1 as W/(m^2 sr); metallic-roughness materials with PNG or
+/// JPEG textures of base colour and alpha, roughness and metalness, emission, normals, KHR_texture_transform and
+/// KHR_materials_ior; alpha modes (see Geometry); animations of nodes (poses_at()). Not done, and said in
+/// scene.warnings: skins, morphs, refraction, occlusion maps, vertex colours, points and lines, orthographic cameras,
+/// optional extensions. A required extension that is not supported is a Fault.
 ///
 /// Everything is first parsed in a child process with limits. Throws Fault; `scene` may then hold part of the file.
 GltfContent add_gltf(Scene& scene, const std::filesystem::path& file, const GltfOptions& options = {});

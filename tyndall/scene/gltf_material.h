@@ -12,11 +12,17 @@
 
 namespace tyndall {
 
+/// A set of texture coordinates that a material asks for.
+struct UvUse {
+  int texture_set = 0;  // n of TEXCOORD_n
+  Transform transform;  // KHR_texture_transform, on (u, v, 0)
+};
+
 /// What a material means for the primitives that carry it.
 struct MaterialUse {
-  int index = -1;         // in Scene::materials
-  int texture_set = 0;    // n of TEXCOORD_n
-  Transform texture_map;  // KHR_texture_transform, on (u, v, 0)
+  int index = -1;              // in Scene::materials
+  std::vector<UvUse> uv_sets;  // by Map::uv_set
+  bool bends_normals = false;
 };
 
 /// Turns materials into the scene's, each when it is first used.
@@ -31,13 +37,18 @@ class GltfMaterials {
 
  private:
   Material read(const tinygltf::Material& from, MaterialUse& use, const std::string& pointer);
-  Spectrum read_emission(const tinygltf::Material& from, const std::string& pointer);
-  void read_texture_map(const tinygltf::TextureInfo& info, MaterialUse& use, const std::string& pointer);
+  void read_alpha(const tinygltf::Material& from, Material& into, const std::string& pointer);
+  double read_strength(const tinygltf::Material& from, const std::string& pointer);
+  double read_ior(const tinygltf::Material& from, const std::string& pointer);
+  /// The map that a texture makes; what its numbers stand for: sRGB codes or linear numbers.
+  enum class Codes { srgb, linear };
+  template <class Info>
+  Map read_map(const Info& info, Codes codes, MaterialUse& use, const std::string& pointer);
+  UvUse read_uv_use(int texture_set, const tinygltf::ExtensionMap& extensions, const std::string& pointer);
   Spectrum color(const std::vector<double>& values, double most, const std::string& pointer) const;
   double fraction(double value, const std::string& pointer) const;
   double number(const tinygltf::Value& value, const std::string& pointer) const;
-  int color_texture(int texture, const std::string& pointer);
-  Spectrum mean_of(int texture, bool srgb, const std::string& pointer);
+  int texture(int index, Codes codes, const std::string& pointer);
   int picture(int texture, const std::string& pointer);
   const Decoded<std::uint8_t>& pixels(int image);
 
@@ -45,8 +56,8 @@ class GltfMaterials {
   Scene& scene_;
   std::set<std::string>& ignored_;
   std::map<int, MaterialUse> known_;
-  std::map<std::tuple<int, int, int>, int> textures_;  // (image, wrap by u, by v) to Scene::textures
-  int decoded_ = -1;                                   // the image that is in pixels_
+  std::map<std::tuple<int, int, int, Codes>, int> textures_;  // (image, wrap by u, by v, codes) to Scene::textures
+  int decoded_ = -1;                                          // the image that is in pixels_
   Decoded<std::uint8_t> pixels_;
 };
 

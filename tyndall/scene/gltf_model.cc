@@ -104,8 +104,9 @@ std::string complaint(const std::string& error) {
 }
 
 void check_extensions(const GltfModel& gltf) {
-  constexpr std::array<std::string_view, 4> supported{"KHR_lights_punctual", "KHR_materials_emissive_strength",
-                                                      "KHR_texture_transform", "KHR_mesh_quantization"};
+  constexpr std::array<std::string_view, 5> supported{"KHR_lights_punctual", "KHR_materials_emissive_strength",
+                                                      "KHR_texture_transform", "KHR_mesh_quantization",
+                                                      "KHR_materials_ior"};
   const Json& root = gltf.json.root;
   if (!root.is_object()) throw gltf.fault("", described(root), "a glTF file");
   if (!root.contains("extensionsRequired")) return;

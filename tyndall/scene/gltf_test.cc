@@ -272,7 +272,7 @@ TEST(Gltf, BaseColorTexturesAreLinear) {
   EXPECT_NEAR(t.color[1][1], 0.5029, 1e-4);
   EXPECT_EQ(t.wrap_u, Wrap::clamp);
   EXPECT_EQ(t.wrap_v, Wrap::mirror);
-  EXPECT_EQ(scene.meshes[0].uvs.size(), 3U);
+  EXPECT_EQ(scene.meshes[0].uvs[0].size(), 3U);
 }
 
 TEST(Gltf, TextureTransformsActOnCoordinates) {
@@ -283,7 +283,7 @@ TEST(Gltf, TextureTransformsActOnCoordinates) {
       {"offset", {0, 1}}, {"rotation", std::numbers::pi / 2}, {"scale", {0.5, 0.5}}};
   Scene scene;
   add_gltf(scene, folder.put("test.glb", glb.bytes()));
-  const auto& uvs = scene.meshes[0].uvs;
+  const auto& uvs = scene.meshes[0].uvs[0];
   EXPECT_NEAR(uvs[0][0], 0.0, 1e-7);
   EXPECT_NEAR(uvs[0][1], 1.0, 1e-7);
   EXPECT_NEAR(uvs[1][0], 0.0, 1e-7);
@@ -292,19 +292,61 @@ TEST(Gltf, TextureTransformsActOnCoordinates) {
   EXPECT_NEAR(uvs[2][1], 1.0, 1e-7);
 }
 
-TEST(Gltf, OtherTexturesCountByTheirMean) {
+TEST(Gltf, MapsAreKeptWithTheirCoordinates) {
   const Folder folder;
   Glb glb = textured(folder, "picture.png");
+  const int second = glb.accessor<float>({0, 0, 0.5, 0, 0, 0.5}, 2);
+  const int tangents = glb.accessor<float>({1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, -1}, 4);
+  auto& attributes = glb.json["meshes"][0]["primitives"][0]["attributes"];
+  attributes["TEXCOORD_1"] = second;
+  attributes["TANGENT"] = tangents;
   glb.json["materials"][0] = {{"emissiveTexture", {{"index", 0}}},
                               {"emissiveFactor", {1, 1, 1}},
-                              {"pbrMetallicRoughness", {{"metallicRoughnessTexture", {{"index", 0}}}}}};
+                              {"normalTexture", {{"index", 0}, {"texCoord", 1}, {"scale", 0.5}}},
+                              {"alphaMode", "MASK"},
+                              {"alphaCutoff", 0.25},
+                              {"extensions", {{"KHR_materials_ior", {{"ior", 1.33}}}}},
+                              {"pbrMetallicRoughness",
+                               {{"baseColorFactor", {1, 1, 1, 0.5}},
+                                {"baseColorTexture", {{"index", 0}}},
+                                {"metallicRoughnessTexture", {{"index", 0}, {"texCoord", 1}}}}}};
+  glb.json["extensionsUsed"] = {"KHR_materials_ior"};
+  glb.json["extensionsRequired"] = {"KHR_materials_ior"};
   Scene scene;
   add_gltf(scene, folder.put("test.glb", glb.bytes()));
-  EXPECT_NEAR(scene.materials[0].emission[0], (1.0 + 0.5029) / 2, 1e-4);
-  EXPECT_NEAR(scene.materials[0].emission[1], 0.5029 / 2, 1e-4);
-  EXPECT_NEAR(scene.materials[0].roughness, 188.0 / 255 / 2, 1e-12);
-  EXPECT_NEAR(scene.materials[0].metallic, 188.0 / 255 / 2, 1e-12);
-  EXPECT_TRUE(warns(scene, "emission"));
+  const Material& m = scene.materials[0];
+  ASSERT_EQ(scene.textures.size(), 2U) << "as colours, and as numbers";
+  EXPECT_EQ(m.color_map.texture, m.emission_map.texture);
+  EXPECT_EQ(m.roughness_map.texture, m.normal_map.texture);
+  EXPECT_NEAR(scene.textures[static_cast<std::size_t>(m.color_map.texture)].color[1][0], 0.5029, 1e-4);
+  EXPECT_NEAR(scene.textures[static_cast<std::size_t>(m.normal_map.texture)].color[1][0], 188.0 / 255, 1e-7);
+  ASSERT_EQ(scene.meshes[0].uvs.size(), 2U);
+  EXPECT_NE(m.color_map.uv_set, m.normal_map.uv_set);
+  EXPECT_EQ(scene.meshes[0].uvs[static_cast<std::size_t>(m.normal_map.uv_set)][1][0], 0.5F);
+  EXPECT_EQ(scene.meshes[0].tangents[2][3], -1.0F);
+  EXPECT_EQ(m.normal_scale, 0.5);
+  EXPECT_EQ(m.alpha, 0.5);
+  EXPECT_EQ(m.alpha_cutoff, 0.25);
+  EXPECT_EQ(m.alpha_mode, AlphaMode::mask);
+  EXPECT_EQ(m.ior, 1.33);
+  EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
+}
+
+TEST(Gltf, MaterialsOutOfBoundsAreRefused) {
+  const auto with = [](const json& material) {
+    Glb glb;
+    glb.add("materials", material);
+    glb.triangle_mesh();
+    glb.json["meshes"][0]["primitives"][0]["material"] = 0;
+    glb.node({{"mesh", 0}});
+    return fault_of(glb);
+  };
+  EXPECT_EQ(with({{"alphaMode", "BLEND"}}), "");
+  EXPECT_NE(with({{"alphaMode", "BLENT"}}).find("BLEND"), std::string::npos);
+  EXPECT_NE(with({{"alphaMode", "MASK"}, {"alphaCutoff", -1}}).find("/alphaCutoff"), std::string::npos);
+  EXPECT_NE(with({{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 2}}}}}).find("/3"), std::string::npos);
+  EXPECT_NE(with({{"extensions", {{"KHR_materials_ior", {{"ior", 0.5}}}}}}).find("/ior"), std::string::npos);
+  EXPECT_NE(with({{"normalTexture", {{"index", 0}}}}).find("/normalTexture/index"), std::string::npos);
 }
 
 TEST(Gltf, ReferencesStayInTheFolderUnlessAllowed) {
@@ -404,12 +446,13 @@ TEST(Gltf, WhatIsNotDoneIsSaid) {
   glb.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = glb.accessor<float>({1, 1, 1, 1, 1, 1, 1, 1, 1}, 3);
   glb.json["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", 0}}};
   glb.json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 0}}}, {"mode", 1}});
-  glb.json["meshes"][0]["primitives"][0]["material"] = glb.add("materials", {{"alphaMode", "MASK"}});
+  glb.add("textures", json::object());
+  glb.json["meshes"][0]["primitives"][0]["material"] = glb.add("materials", {{"occlusionTexture", {{"index", 0}}}});
   glb.node({{"mesh", mesh}});
   glb.json["extensionsUsed"] = {"KHR_materials_transmission"};
   const Scene scene = loaded(glb);
   EXPECT_EQ(scene.meshes.size(), 1U);
-  for (const char* what : {"vertex colours", "morph targets", "points and lines", "transparency", "transmission"}) {
+  for (const char* what : {"vertex colours", "morph targets", "points and lines", "occlusion", "transmission"}) {
     EXPECT_TRUE(warns(scene, what)) << what;
   }
 }
@@ -452,8 +495,9 @@ TEST(Gltf, RealFilesHaveWhatTheyHave) {
 
   const Scene suzanne = read_scene(folder / "blender-io/02_suzanne/02_suzanne.gltf");
   EXPECT_EQ(triangle_count(suzanne), 3936U);
-  ASSERT_EQ(suzanne.textures.size(), 1U);
-  EXPECT_EQ(suzanne.meshes[0].uvs.size(), suzanne.meshes[0].positions.size());
+  ASSERT_EQ(suzanne.textures.size(), 3U) << "colours, roughness, normals";
+  ASSERT_EQ(suzanne.meshes[0].uvs.size(), 1U);
+  EXPECT_EQ(suzanne.meshes[0].uvs[0].size(), suzanne.meshes[0].positions.size());
   EXPECT_EQ(triangle_count(read_scene(folder / "blender-io/04_lights/04_lights.gltf")), 2U);
   EXPECT_EQ(triangle_count(read_scene(folder / "blender-io/05_metallic_sphere_light/05_metallic_sphere_light.gltf")),
             962U);

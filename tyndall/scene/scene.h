@@ -17,28 +17,44 @@ namespace tyndall {
 /// What a texture shows beyond its edges.
 enum class Wrap { repeat, mirror, clamp };
 
-/// Linear base colours, row-major, top row first; values in [0, 1].
+/// Linear numbers, row-major, top row first; values in [0, 1].
 struct Texture {
   int width = 0, height = 0;
   std::vector<std::array<float, 3>> color;
   Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
+  std::vector<float> alpha;  // empty: 1 everywhere
 };
 
-/// glTF's metallic-roughness material. emission is radiance [W/(m^2 sr)], strength included.
+/// A texture on a surface.
+struct Map {
+  int texture = -1;  // in Scene::textures, -1 for none
+  int uv_set = 0;    // in Mesh::uvs
+};
+
+/// glTF's: whether alpha counts as 1, is cut at a threshold, or is the part of the surface that is there.
+enum class AlphaMode { opaque, mask, blend };
+
+/// glTF's metallic-roughness material. emission is radiance [W/(m^2 sr)], strength included. Maps multiply: color_map
+/// the base colour and alpha, roughness_map by its second and third number roughness and metalness.
 struct Material {
   std::string name;
   Spectrum base_color = Spectrum::grey(1.0);
-  int base_color_texture = -1;  // in Scene::textures, -1 for none
+  double alpha = 1.0, alpha_cutoff = 0.5;
+  AlphaMode alpha_mode = AlphaMode::opaque;
   double metallic = 1.0, roughness = 1.0;
+  double ior = 1.5;  // refractive index of what is no metal, for its reflection
   Spectrum emission;
+  double normal_scale = 1.0;
+  Map color_map, roughness_map, emission_map, normal_map;
   bool double_sided = false;  // emission leaves a single-sided material on its front (counter-clockwise) face only
 };
 
-/// Triangles of one material; normals and uvs are empty or one per position.
+/// Triangles of one material; normals, tangents and each set of uvs are empty or one per position.
 struct Mesh {
   std::string name;
   std::vector<std::array<float, 3>> positions, normals;
-  std::vector<std::array<float, 2>> uvs;
+  std::vector<std::array<float, 4>> tangents;  // and the sign of normal x tangent, by which it points up the normal map
+  std::vector<std::vector<std::array<float, 2>>> uvs;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   int material = -1;  // in Scene::materials, -1 for the default: white, metallic 0, roughness 1
 };
