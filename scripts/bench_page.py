@@ -1,12 +1,9 @@
 #!/usr/bin/env python3
-"""Writes docs/bench.md, or only its section of laws, from BUILD/bench/*.json, which scripts/bench.sh leaves. Run by
+"""Writes docs/bench.md, or only one of its sections, from BUILD/bench/*.json, which scripts/bench.sh leaves. Run by
 `make bench`."""
 import argparse
 import json
 import os
-import subprocess
-import sys
-import tempfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 
@@ -109,28 +106,21 @@ def plain_table(runs, unit, value, name=lambda run: run["name"]):
     yield ""
 
 
-def seconds(command):
-    """Processor time, which a busy machine does not stretch as it does the clock's."""
-    before = os.times()
-    subprocess.run(command, check=True, stderr=subprocess.DEVNULL)
-    after = os.times()
-    return after.children_user + after.children_system - before.children_user - before.children_system
-
-
-SIZE, FEW, MANY = (160, 90), 4, 24
-
-
-def path_table(build):
-    """Samples per second of `path`, from the difference of two runs, so that loading the scene does not count."""
-    yield "| scene | thousand samples per second of one processor |"
-    yield "|---|---|"
-    for scene in ("street", "room", "landscape"):
-        with tempfile.TemporaryDirectory() as folder:
-            command = [os.path.join(build, "tyndall"), "render", os.path.join(HERE, "..", "examples", scene + ".scene.json"), "--quiet",
-                       "--threads", "1", "--size", "%dx%d" % SIZE, "-o", os.path.join(folder, "x.exr"), "--spp"]
-            took = seconds(command + [str(MANY)]) - seconds(command + [str(FEW)])
-        yield "| %s | %.3g |" % (scene, SIZE[0] * SIZE[1] * (MANY - FEW) / took / 1000 if took > 0 else float("nan"))
+def path_table(runs):
+    yield "| scene | thousand paths | thousand rays | thousand collisions | thousand reflections |"
+    yield "|---|---|---|---|---|"
+    for run in runs["benchmarks"]:
+        yield "| %s | %s |" % (run["name"].split("/")[1],
+                               " | ".join("%.3g" % (run[what] / 1e3) for what in ("paths", "rays", "collisions", "reflections")))
     yield ""
+
+
+def picture_section(build):
+    return [
+        "## Pictures: `path`, per second of one processor", "", "`build-bench/bin/path_bench`", "",
+        "Rays are those asked of surfaces, shadow rays included; collisions those that walks go on from (light of lamps and suns is besides",
+        "gathered along segments).", "",
+        *path_table(results(build, "path_bench"))]
 
 
 def law_section(build):
@@ -155,26 +145,32 @@ def page(build):
         "## Airlight: microseconds per ray and light", "", "`build-bench/bin/airlight_bench`", "",
         *plain_table(results(build, "airlight_bench"), "microseconds", lambda run: run["per_ray_and_light"] * 1e6,
                      lambda run: run["name"].split("/")[0].replace("_", " ") + ": " + run["label"]),
-        "## Pictures: `path`", "",
-        "`build-bench/tyndall render examples/SCENE.scene.json --threads 1 --size %dx%d --spp %d`, less the same with `--spp %d`."
-        % (*SIZE, MANY, FEW), "",
-        *path_table(build)]
+        *picture_section(build)]
+
+
+# The sections that can be made alone, by how they begin; and those that other scripts measure.
+SECTIONS = {"laws": ("Laws", law_section), "pictures": ("Pictures", picture_section)}
+KEPT = ("Against Cycles", "Threads")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("build", help="the build folder of `make bench`: build-bench")
-    parser.add_argument("section", nargs="?", choices=["laws"], help="only this section; the rest of the page stays")
+    parser.add_argument("section", nargs="?", choices=sorted(SECTIONS), help="only this section; the rest of the page stays")
     arguments = parser.parse_args()
-    build, only_laws = arguments.build, arguments.section == "laws"
     where = os.path.join(HERE, "..", "docs", "bench.md")
-    lines = law_section(build) if only_laws else page(build)
-    if only_laws:  # the rest of the page stays as it is
-        with open(where, encoding="utf-8") as file:
-            before, rest = file.read().split("## Laws\n", 1)
-        lines = [before + lines[0], *lines[1:-1], "", "## " + rest.split("\n## ", 1)[1]]
+    with open(where, encoding="utf-8") as file:
+        before, *old = file.read().split("\n## ")
+    if arguments.section:
+        begin = SECTIONS[arguments.section][0]
+        new = "\n".join(SECTIONS[arguments.section][1](arguments.build))[len("## "):]
+        if not any(section.startswith(begin) for section in old):
+            parser.error("docs/bench.md has no section " + begin)
+        text = "\n## ".join([before, *(new if section.startswith(begin) else section for section in old)])
+    else:  # what other scripts measure stays
+        text = "\n## ".join(["\n".join(page(arguments.build)), *(section for section in old if section.startswith(KEPT))])
     with open(where, "w", encoding="utf-8") as file:
-        file.write("\n".join(lines))
+        file.write(text)
 
 
 if __name__ == "__main__":

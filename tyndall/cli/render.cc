@@ -155,9 +155,9 @@ struct Job {
     SceneArguments arguments = options.scene;
     arguments.frame = number(frames.first);
     timed = scene_of(arguments, options.quiet || !chief);
-    // A medium that is none in some picture is better known now than after a night.
+    // A medium that is none in some picture, or a file that is missing, is better known now than after a night.
     for (int frame = frames.first; frame <= frames.last && animated; ++frame)
-      medium_at(timed.media, time_of(scene(), frame));
+      medium_at(timed.media, time_of(scene(), frame), Grids::found);
     if (film) timed.scene.film = *film;
     check_memory(scene().film);
     geometry.emplace(scene());

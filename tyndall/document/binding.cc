@@ -1,6 +1,7 @@
 #include "tyndall/document/binding.h"
 
 #include "tyndall/document/grid_reader.h"
+#include "tyndall/document/grid_sequence.h"
 #include "tyndall/document/number_rows.h"
 #include "tyndall/document/reference.h"
 
@@ -43,9 +44,9 @@ int read_integer(const JsonCursor& at, const FieldFacts& facts) {
 
 namespace {
 
-/// The file whose name stands here.
-std::filesystem::path file_named(const JsonCursor& at, const std::string& instead) {
-  const auto& name = at.value().get_ref<const std::string&>();
+/// The file whose name stands here, or is this.
+std::filesystem::path file_named(const JsonCursor& at, const std::string& instead, const std::string& given = "") {
+  const auto& name = given.empty() ? at.value().get_ref<const std::string&>() : given;
   if (!at.references()) {
     throw at.fault("the file name " + in_quotes(name, 100) + ", in a text that stands in no folder", instead);
   }
@@ -56,6 +57,8 @@ std::filesystem::path file_named(const JsonCursor& at, const std::string& instea
     throw at.fault(nameless.found, nameless.expected);  // finding a place is work, of which a text may ask a lot
   }
 }
+
+const std::string grid_holder = "a medium or scene in a file";
 
 }  // namespace
 
@@ -75,11 +78,19 @@ NumberFile read_number_file(const JsonCursor& at, const FieldFacts& facts) {
 
 GridFile read_grid_file(const JsonCursor& at, const FieldFacts& facts) {
   if (!at.value().is_string()) throw at.wrong_type(expected_value<GridFile>(facts));
-  const std::filesystem::path path = file_named(at, "a medium or scene in a file");
-  return {at.value().get<std::string>(), path.string(), nullptr, 0};
+  GridFile file;
+  file.name = at.value().get<std::string>();
+  if (!is_sequence(file.name)) file.path = file_named(at, grid_holder).string();
+  return file;
 }
 
-void load_grid(const JsonCursor& at, GridFile& file, const std::string& grid_name) {
+void load_grid(const JsonCursor& at, GridFile& file, const std::string& grid_name, int number) {
+  if (is_sequence(file.name)) {
+    file.path = file_named(at.at("file"), grid_holder, numbered_file(file.name, number)).string();
+    file.naming = at.at("file").references()->naming.string();
+    file.anywhere = at.at("file").references()->allow_path;
+    file.number = number;
+  }
   NamedNumbers& named = *at.at("file").references()->numbers;
   GridFile& known = named.grids[file.path + '\0' + grid_name];
   if (!known.grid) {
@@ -92,6 +103,9 @@ void load_grid(const JsonCursor& at, GridFile& file, const std::string& grid_nam
   }
   file.grid = known.grid;
   file.content = known.content;
+  if (is_sequence(file.name)) {
+    file.path = (std::filesystem::path(file.path).parent_path() / std::filesystem::path(file.name).filename()).string();
+  }
 }
 
 std::size_t read_word(const JsonCursor& at, const std::vector<std::string_view>& words) {

@@ -38,8 +38,9 @@ int read_integer(const JsonCursor& at, const FieldFacts& facts);
 NumberFile read_number_file(const JsonCursor& at, const FieldFacts& facts);
 /// The file that is named here, its grid unread.
 GridFile read_grid_file(const JsonCursor& at, const FieldFacts& facts);
-/// Reads a grid of a file into it; "" is the only one. `at` is the object that names both.
-void load_grid(const JsonCursor& at, GridFile& file, const std::string& grid_name);
+/// Reads a grid of a file into it, of a sequence that with the number; "" is the only one. `at` is the object that
+/// names both.
+void load_grid(const JsonCursor& at, GridFile& file, const std::string& grid_name, int number);
 /// The index of the text here among words.
 std::size_t read_word(const JsonCursor& at, const std::vector<std::string_view>& words);
 /// A Fault where this is not an object, or has a key that is neither among `keys` nor the tag. `resolved` is a key that
@@ -129,7 +130,8 @@ void read_object(const JsonCursor& at, T& out, std::string_view tag = "") {
       throw at.fault("no key \"" + std::string(field.name) + '"', expected_value<Member>(facts));
     }
   });
-  if constexpr (requires { load_grid(at, out.file, out.grid_name); }) load_grid(at, out.file, out.grid_name);
+  if constexpr (requires { load_grid(at, out.file, out.grid_name, out.first_frame); })
+    load_grid(at, out.file, out.grid_name, out.first_frame);
   if constexpr (requires { objection_to(out); }) {
     if (const std::optional<Objection> objection = objection_to(out)) throw at.fault_below(*objection);
   }

@@ -278,5 +278,75 @@ TEST_F(GridReader, NothingIsBelievedOfWhatTheChildSends) {
   }
 }
 
+TEST(GridSequence, NamesAreNumbered) {
+  EXPECT_FALSE(is_sequence("smoke.vdb"));
+  EXPECT_FALSE(is_sequence("take#2/smoke.vdb")) << "a folder's name is its own";
+  EXPECT_TRUE(is_sequence("caches/smoke.####.vdb"));
+  EXPECT_EQ(numbered_file("smoke.####.vdb", 7), "smoke.0007.vdb");
+  EXPECT_EQ(numbered_file("smoke.####.vdb", 123456), "smoke.123456.vdb");
+  EXPECT_EQ(numbered_file("a##/smoke#", 3), "a##/smoke3");
+  GridProfile profile;
+  profile.first_frame = 1;
+  profile.fps = 24.0;
+  for (int n = 0; n < 2000; ++n) EXPECT_EQ(frame_of(profile, n / 24.0), n + 1);
+  EXPECT_EQ(frame_of(profile, 0.45 / 24.0), 1);
+  EXPECT_EQ(frame_of(profile, 0.55 / 24.0), 2);
+  EXPECT_NE(tests::fault_of([&] { frame_of(profile, -1.0); }), "");
+  EXPECT_NE(tests::fault_of([&] { frame_of(profile, 1e300); }), "");
+}
+
+/// A cube of one number a frame, as the files 4, 5 and 7.
+TEST_F(GridReader, SequencesShowTheFileOfTheirTime) {
+  for (const int frame : {4, 5, 7}) {
+    const auto grid = openvdb::FloatGrid::create(0);
+    for (int i = 0; i < 27; ++i) grid->getAccessor().setValue({i % 3, i / 3 % 3, i / 9}, static_cast<float>(frame));
+    grid->setName("density");
+    write({grid}, "smoke." + std::to_string(frame) + ".vdb");
+  }
+  const fs::path file = write_text("smoke.medium.json", R"({"format": "tyndall-medium/1", "species": [{"name": "smoke",
+    "density": {"extinction": 1}, "phase": {"law": "isotropic"},
+    "profile": {"law": "grid", "file": "smoke.#.vdb", "first_frame": 4, "fps": 10}}]})");
+  MediumFile medium = read_medium_file(file);
+  const auto density = [&] { return factor(compile(medium).species[0], {1, 1, 1}); };
+  EXPECT_EQ(density(), 4.0);
+  set_grid_time(medium, 0.1);
+  EXPECT_EQ(density(), 5.0);
+  EXPECT_NE(tests::fault_of([&] { set_grid_time(medium, 0.2); }).find("smoke.6.vdb"), std::string::npos);
+  EXPECT_NE(tests::fault_of([&] { set_grid_time(medium, 0.2, Grids::found); }).find("smoke.6.vdb"), std::string::npos);
+  EXPECT_EQ(density(), 5.0) << "what was there stays";
+  set_grid_time(medium, 0.3, Grids::found);
+  EXPECT_EQ(density(), 5.0) << "only looked for";
+  set_grid_time(medium, 0.3);
+  EXPECT_EQ(density(), 7.0);
+  // Written anywhere below, it names the same files.
+  fs::create_directory(folder.path / "below");
+  write_medium_file(folder.path / "copy.medium.json", medium);
+  MediumFile copy = read_medium_file(folder.path / "copy.medium.json");
+  set_grid_time(copy, 0.1);
+  medium = copy;
+  EXPECT_EQ(density(), 5.0);
+}
+
+TEST_F(GridReader, SequencesStayInTheirFolderAtEveryTime) {
+  write({ball<openvdb::FloatGrid>()}, "smoke.0.vdb");
+  const tests::Folder elsewhere;
+  fs::copy_file(folder.path / "smoke.0.vdb", elsewhere.path / "foreign.vdb");
+  fs::create_symlink(elsewhere.path / "foreign.vdb", folder.path / "smoke.1.vdb");
+  const fs::path file = write_text("smoke.medium.json", R"({"format": "tyndall-medium/1", "species": [{"name": "smoke",
+    "density": {"extinction": 1}, "phase": {"law": "isotropic"},
+    "profile": {"law": "grid", "file": "smoke.#.vdb", "fps": 1}}]})");
+  MediumFile medium = read_medium_file(file);
+  EXPECT_NE(tests::fault_of([&] { set_grid_time(medium, 1.0); }).find("--allow-path"), std::string::npos);
+  medium = read_medium_file(file, true);
+  set_grid_time(medium, 1.0);
+  EXPECT_NE(tests::fault_of([&] {
+              read_medium_file(write_text("absent.medium.json",
+                                          R"({"format": "tyndall-medium/1", "species": [{"name": "smoke",
+    "density": {"extinction": 1}, "phase": {"law": "isotropic"},
+    "profile": {"law": "grid", "file": "smoke.#.vdb", "first_frame": 9}}]})"));
+            }).find("absent.medium.json:3"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace tyndall

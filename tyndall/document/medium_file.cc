@@ -108,19 +108,19 @@ void move_references(Profiles& profiles, const std::filesystem::path& naming) {
   }
 }
 
-/// The same wherever profiles are among dials.
-template <class T>
-void move_profiles(T& value, const std::filesystem::path& naming) {
+/// Calls change(profiles) wherever profiles are among dials.
+template <class T, class Change>
+void for_each_profiles(T& value, const Change& change) {
   if constexpr (std::is_same_v<T, Profiles>) {
-    move_references(value, naming);
+    change(value);
   } else if constexpr (OptionalMember<T>) {
-    if (value) move_profiles(*value, naming);
+    if (value) for_each_profiles(*value, change);
   } else if constexpr (ListMember<T>) {
-    for (auto& element : value) move_profiles(element, naming);
+    for (auto& element : value) for_each_profiles(element, change);
   } else if constexpr (Choice<T>) {
-    std::visit([&](auto& chosen) { move_profiles(chosen, naming); }, value);
+    std::visit([&](auto& chosen) { for_each_profiles(chosen, change); }, value);
   } else if constexpr (Described<T>) {
-    for_each_field<T>([&](const auto& field) { move_profiles(value.*field.member, naming); });
+    for_each_field<T>([&](const auto& field) { for_each_profiles(value.*field.member, change); });
   }
 }
 
@@ -154,6 +154,16 @@ MediumFile at_time(const MediumFile& file, double time, const std::string& name_
   auto& out = std::get<MediumFile>(there);
   std::erase_if(out.sources, [](const Source& source) { return source.of.rfind("/keyframes", 0) == 0; });
   return std::move(out);
+}
+
+void set_grid_time(std::vector<Profile>& profiles, double time, Grids grids) {
+  for (Profile& profile : profiles) {
+    if (auto* const grid = std::get_if<GridProfile>(&profile)) set_time(*grid, time, grids);
+  }
+}
+
+void set_grid_time(MediumFile& file, double time, Grids grids) {
+  for_each_profiles(file, [&](Profiles& profiles) { set_grid_time(profiles.all, time, grids); });
 }
 
 Medium compile(const MediumFile& file, const std::string& name_for_messages) {
@@ -201,7 +211,7 @@ std::string medium_to_json(const MediumFile& file) { return pretty(written(file)
 void write_medium_file(const std::filesystem::path& file, const MediumFile& medium) {
   MediumFile moved = medium;
   for (StatedSpecies& species : moved.species) move_references(species.phase, file);
-  move_profiles(moved, file);
+  for_each_profiles(moved, [&](Profiles& profiles) { move_references(profiles, file); });
   const std::string text = medium_to_json(moved);
   JsonText json = parse_json(text, file.string());
   json.references = ReferenceRule{file};

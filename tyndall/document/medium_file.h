@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "tyndall/artist/keyframes.h"
+#include "tyndall/document/grid_sequence.h"
 #include "tyndall/document/json_text.h"
 #include "tyndall/document/source.h"
 #include "tyndall/document/writing.h"
@@ -71,6 +72,10 @@ MediumFile read_medium_file(const std::filesystem::path& file, bool allow_path =
 /// The file as it is at a time [s], without keyframes. Throws Fault {`name_for_messages`, ...} where there is no medium
 /// between two keys (a visibility that is held, out of reach on the way); never for a file without keyframes.
 MediumFile at_time(const MediumFile& file, double time, const std::string& name_for_messages = "medium");
+
+/// Makes sequences of grids those of a time (set_time()). Throws Fault.
+void set_grid_time(std::vector<Profile>& profiles, double time, Grids grids = Grids::read);
+void set_grid_time(MediumFile& file, double time, Grids grids = Grids::read);
 
 /// The medium in SI, one with keyframes as it is at time 0. Throws Fault {`name_for_messages`, ...} where the dials
 /// contradict each other; never for a file as read.

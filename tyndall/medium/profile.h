@@ -139,17 +139,24 @@ struct GridProfile {
   std::string grid_name;
   double scale = 1.0, size = 1.0;
   Vector position;
+  int first_frame = 0;
+  double fps = 24.0;
   bool operator==(const GridProfile&) const = default;
   static constexpr auto fields() {
     return std::tuple{
-        Field{"file", &GridProfile::file, any_number, "", "OpenVDB file (.vdb) with the grid.", Scaling::none, true},
+        Field{"file", &GridProfile::file, any_number, "",
+              "OpenVDB file (.vdb) with the grid; smoke.####.vdb is a sequence of numbered files.", Scaling::none,
+              true},
         Field{"name", &GridProfile::grid_name, any_number, "",
               "Name of the grid in the file; may be left out where there is only one."},
         Field{"scale", &GridProfile::scale, not_negative, "1", "What the grid's values are multiplied by."},
         Field{"size", &GridProfile::size, positive, "m", "Length of one unit of the grid's own space.",
               Scaling::length},
         Field{"position", &GridProfile::position, any_number, "m", "Where the origin of the grid's own space is put.",
-              Scaling::length}};
+              Scaling::length},
+        Field{"first_frame", &GridProfile::first_frame, Range{0.0, 1e8}, "1",
+              "The number of a sequence's file for time 0."},
+        Field{"fps", &GridProfile::fps, positive, "1/s", "How many files of a sequence make a second."}};
   }
 };
 

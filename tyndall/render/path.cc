@@ -78,6 +78,17 @@ struct PathTracer::State {
   LampSegment segment;
   std::vector<SunLesson>* lessons = nullptr;  // where to write what is met of the suns, if anybody learns
   std::uint64_t sun_tries = 0;                // how often it was looked for
+  PathCounts counts;
+
+  std::optional<Hit> intersect(const Ray& ray) {
+    ++counts.rays;
+    return context.geometry.intersect(ray);
+  }
+  template <class From, class To>
+  bool occluded(const From& from, const To& to) {
+    ++counts.rays;
+    return context.geometry.occluded(from, to);
+  }
 
   bool may_go_on(const Walk& walk) const { return context.max_depth == 0 || walk.depth() < context.max_depth; }
 
@@ -98,10 +109,10 @@ struct PathTracer::State {
 
   /// Transmittance of medium and surfaces over a stretch of a ray; zero when a surface is in the way.
   Spectrum unoccluded(const Ray& ray, double distance, RandomStream& random) {
-    return context.geometry.occluded(ray, distance) ? Spectrum{} : through_air(ray, distance, random);
+    return occluded(ray, distance) ? Spectrum{} : through_air(ray, distance, random);
   }
   Spectrum unoccluded(const Vector& from, const Vector& to, RandomStream& random) {
-    if (context.geometry.occluded(from, to)) return {};
+    if (occluded(from, to)) return {};
     const Vector way = to - from;
     const double distance = length(way);
     return distance == 0.0 ? Spectrum::grey(1.0) : through_air({from, way / distance}, distance, random);
@@ -109,7 +120,7 @@ struct PathTracer::State {
 
   /// The same with no choice in it: of the same points always the same.
   Spectrum exactly_unoccluded(const Vector& from, const Vector& to) {
-    if (context.geometry.occluded(from, to)) return {};
+    if (occluded(from, to)) return {};
     const Vector way = to - from;
     const double distance = length(way);
     return distance == 0.0 ? Spectrum::grey(1.0)
@@ -137,7 +148,7 @@ struct PathTracer::State {
     out = {};
     Walk walk;
     walk.ray = ray;
-    std::optional<Hit> hit = context.geometry.intersect(ray);
+    std::optional<Hit> hit = intersect(ray);
     if (hit) out.depth = hit->t;
     double end = hit ? hit->t : infinity;
     if (distance < end) hit.reset();
@@ -177,7 +188,7 @@ struct PathTracer::State {
   void follow(Walk walk, RandomStream& random) {
     for (;;) {
       random.align(event_dimensions);
-      const std::optional<Hit> hit = context.geometry.intersect(walk.ray);
+      const std::optional<Hit> hit = intersect(walk.ray);
       const double end = hit ? hit->t : infinity;
       const bool dense = is_dense(walk.ray, walk.extinction, end);
       walk.been_in_dense = walk.been_in_dense || dense;
@@ -324,7 +335,7 @@ struct PathTracer::State {
     const Spectrum f = reflect(ray.direction);
     const double own = sun_lobe(ray.direction);
     if (is_zero(f) || !(own > 0.0)) return;
-    const auto hit = context.geometry.intersect(ray);
+    const auto hit = intersect(ray);
     const double end = hit ? hit->t : infinity;
     const bool dense = is_dense(ray, walk.extinction, end);
     const double weight = balance(own, density(ray.direction)) / own;
@@ -380,7 +391,7 @@ struct PathTracer::State {
       const double xi[2] = {random.next(), random.next()};
       const LightSample sun = sample_sun(context.lights.suns[i], random.next(), random.next());
       const Ray beam{beams.sample(xi[0], xi[1]), -sun.direction};
-      const auto lit = context.geometry.intersect(beam);
+      const auto lit = intersect(beam);
       if (lit) {
         const Vector way = lit->point - from;
         const double squared = length_squared(way);
@@ -504,7 +515,7 @@ struct PathTracer::State {
     const Ray around_lamp{from, walk.aim.direction(lamps[lamp], xi[1], xi[2])};
     if (const Spectrum f = reflect(around_lamp.direction); !is_zero(f) && !context.medium.species.empty()) {
       const double own = tries * walk.aim.density(lamps[lamp], around_lamp.direction);
-      const auto hit = context.geometry.intersect(around_lamp);
+      const auto hit = intersect(around_lamp);
       const double end = hit ? hit->t : infinity;
       stretches_along(context.medium, around_lamp, end, stretches);
       if (own > 0.0 && !stretches.empty()) {
@@ -519,7 +530,7 @@ struct PathTracer::State {
     const double xi_beam[4] = {random.next(), random.next(), random.next(), random.next()};
     const Ray beam{lamps[lamp].position, walk.aim.beam(lamps[lamp], xi[5], xi_beam[0], xi_beam[1])};
     const Spectrum intensity = lamps[lamp].intensity_toward(beam.direction);
-    const auto lit = context.geometry.intersect(beam);
+    const auto lit = intersect(beam);
     if (lit) add_lit_surface(walk, from, scatterings, bounces, lamp, beam, *lit, intensity, random, reflect, density);
     if (lamps[lamp].spot == nullptr) return;
     const std::optional<Shaft> shaft =
@@ -584,6 +595,7 @@ struct PathTracer::State {
   /// A collision at distance t of the walk's segment: adds direct light of surroundings and emissive surfaces, and that
   /// of suns if it stands for the segment's, and turns.
   bool collide(Walk& walk, double t, bool with_suns, RandomStream& random) {
+    ++counts.collisions;
     scatter.set(context.medium, stretches, t);
     const Vector point = walk.ray.at(t);
     if (with_suns) suns_at(walk, t, scatter, walk.beta, true, random);
@@ -628,6 +640,7 @@ struct PathTracer::State {
 
   /// The walk has met a surface: adds its emission and the light it reflects directly, and reflects.
   bool bounce(Walk& walk, const Hit& hit, RandomStream& random) {
+    ++counts.bounces;
     const Spectrum emitted = context.lights.emission(hit);
     if (!is_zero(emitted)) {
       const double other = walk.direction_density > 0.0 ? context.lights.emitter_density(hit, walk.ray) : 0.0;
@@ -701,6 +714,7 @@ PathTracer::PathTracer(const PathContext& context) : state_(new State(context.pr
 PathTracer::~PathTracer() = default;
 void PathTracer::teach(std::vector<SunLesson>& lessons) { state_->lessons = &lessons; }
 std::uint64_t PathTracer::sun_tries() const { return state_->sun_tries; }
+const PathCounts& PathTracer::counts() const { return state_->counts; }
 PathSample PathTracer::trace(const Ray& ray, double distance, RandomStream& random, bool sees_sun) {
   return state_->trace(ray, distance, random, sees_sun);
 }

@@ -46,6 +46,11 @@ struct PathSample {
   double depth = infinity;  // distance to the surface seen [m]
 };
 
+/// What a tracer has done: rays asked of surfaces, those of shadows included; collisions and reflections of walks.
+struct PathCounts {
+  std::uint64_t rays = 0, collisions = 0, bounces = 0;
+};
+
 /// Traces paths; one per thread, for its scratch memory.
 class PathTracer {
  public:
@@ -63,6 +68,7 @@ class PathTracer {
   void teach(std::vector<SunLesson>& lessons);
   /// How often it has looked for them, in vain or not.
   std::uint64_t sun_tries() const;
+  const PathCounts& counts() const;
 
  private:
   struct State;

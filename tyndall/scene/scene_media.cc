@@ -2,12 +2,15 @@
 
 namespace tyndall {
 
-Medium medium_at(const SceneMedia& media, double time) {
+Medium medium_at(const SceneMedia& media, double time, Grids grids) {
   Medium out;
   for (const PlacedMedium& placed : media) {
-    const MediumFile now = at_time(placed.file, time, placed.name_for_messages);
+    MediumFile now = at_time(placed.file, time, placed.name_for_messages);
+    set_grid_time(now, time, grids);
+    std::vector<Profile> profiles = placed.profiles;
+    set_grid_time(profiles, time, grids);
     for (Species& species : compile(now, placed.name_for_messages).species) {
-      species.profiles.insert(species.profiles.end(), placed.profiles.begin(), placed.profiles.end());
+      species.profiles.insert(species.profiles.end(), profiles.begin(), profiles.end());
       out.species.push_back(std::move(species));
     }
   }

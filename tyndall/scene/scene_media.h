@@ -15,8 +15,9 @@ struct PlacedMedium {
 };
 using SceneMedia = std::vector<PlacedMedium>;
 
-/// All of them together at a time [s]. Throws Fault where one is no medium then (at_time()).
-Medium medium_at(const SceneMedia& media, double time);
+/// All of them together at a time [s]. Throws Fault where one is no medium then (at_time()), or a file of a sequence
+/// cannot be read; Grids::found: or is not there.
+Medium medium_at(const SceneMedia& media, double time, Grids grids = Grids::read);
 
 /// The times of all keyframes.
 std::vector<double> key_times(const SceneMedia& media);
