@@ -111,7 +111,7 @@ def path_table(runs):
     yield "|---|---|---|---|---|"
     for run in runs["benchmarks"]:
         yield "| %s | %s |" % (run["name"].split("/")[1],
-                               " | ".join("%.3g" % (run[what] / 1e3) for what in ("paths", "rays", "collisions", "reflections")))
+                               " | ".join("%d" % round(run[what] / 1e3) for what in ("paths", "rays", "collisions", "reflections")))
     yield ""
 
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """scaling.py [PROGRAM]: how much faster two threads, and two processes, are than one; and what a large grid takes.
 
-    python3 scripts/scaling.py build/tyndall                 ten minutes; wants two idle processors
+    python3 scripts/scaling.py build/tyndall                 six minutes; wants two idle processors
     python3 scripts/scaling.py build/tyndall cloud --runs 3
     python3 scripts/scaling.py build/tyndall --grid 512      instead: memory and time for a grid of so many voxels along an edge
 
@@ -20,7 +20,7 @@ import time
 sys.dont_write_bytecode = True
 HERE = os.path.dirname(os.path.abspath(__file__))
 EXAMPLES = os.path.join(HERE, "..", "examples")
-SCENES = {"street": (8, 40), "landscape": (16, 80), "cloud": (32, 160)}
+SCENES = {"street": (4, 16), "landscape": (8, 32), "cloud": (16, 80)}
 SIZE = "320x180"
 
 
@@ -74,7 +74,7 @@ def main():
     parser = argparse.ArgumentParser(description="Threads, processes, large grids.")
     parser.add_argument("program", nargs="?", default="build/tyndall")
     parser.add_argument("scenes", nargs="*")
-    parser.add_argument("--runs", type=int, default=3)
+    parser.add_argument("--runs", type=int, default=2)
     parser.add_argument("--grid", type=int, metavar="VOXELS")
     arguments = parser.parse_args()
     if not set(arguments.scenes) <= set(SCENES):
